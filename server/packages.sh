@@ -1,0 +1,61 @@
+# The Debian packages that the project is built with, and how they are installed. Sourced by
+# server/run and tests/run.
+# shellcheck shell=bash
+
+# shellcheck disable=SC2034  # read by the scripts that source this one
+server_packages=(
+  cmake ninja-build ccache clang-19 lld-19
+  libboost1.81-dev libboost-url1.81-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev
+  libspdlog-dev libfmt-dev libcli11-dev libexpected-dev libpng-dev
+)
+# llvm-19 holds the symbolizer that makes a sanitizer's stack traces readable.
+# shellcheck disable=SC2034
+test_packages=(
+  clang-tidy-19 libclang-rt-19-dev llvm-19 clang-format-14
+  libgtest-dev librapidcheck-dev libbenchmark-dev
+)
+
+is_installed() {
+  [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# need_packages PACKAGE...: installs those that are missing; without any, apt-get is not called.
+# Nothing is ever removed: what stands in the way is named, and the script ends with status 2.
+need_packages() {
+  local package missing=() root=() in_the_way
+  for package in "$@"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+
+  local install=(apt-get install -y -q --no-remove --no-install-recommends "${missing[@]}")
+  if [ "$(id -u)" -ne 0 ]; then
+    root=(sudo)
+    if ! command -v sudo >/dev/null; then
+      echo "Packages are missing. Run this as root:" >&2
+      echo "  apt-get update && ${install[*]}" >&2
+      exit 2
+    fi
+  fi
+
+  echo "== installing ${missing[*]}"
+  "${root[@]}" apt-get update -qq </dev/null
+  in_the_way=$(apt-get install -s --no-install-recommends "${missing[@]}" 2>/dev/null |
+    awk '$1 == "Remv" { print $2 }' | tr '\n' ' ') || true
+  if [ -n "$in_the_way" ]; then
+    echo "In the way, and not removed: $in_the_way" >&2
+    echo "Of Boost 1.81 and 1.74 only one can be installed for development." >&2
+    echo "docker/README says how to build beside what is installed." >&2
+    exit 2
+  fi
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" </dev/null >/dev/null
+}
+
+# use_ccache ROOT: ccache finds what another clone of the project on this machine has built, and a
+# folder to write to where there is no home.
+use_ccache() {
+  export CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1
+  if [ -z "${CCACHE_DIR:-}" ] && { [ -z "${HOME:-}" ] || [ ! -w "$HOME" ]; }; then
+    export CCACHE_DIR=$1/build/ccache
+  fi
+}
