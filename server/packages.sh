@@ -22,7 +22,7 @@ is_installed() {
 # need_packages PACKAGE...: installs those that are missing; without any, apt-get is not called.
 # Nothing is ever removed: what stands in the way is named, and the script ends with status 2.
 need_packages() {
-  local package missing=() root=() in_the_way
+  local package missing=() as_root=() in_the_way
   for package in "$@"; do
     is_installed "$package" || missing+=("$package")
   done
@@ -30,7 +30,7 @@ need_packages() {
 
   local install=(apt-get install -y -q --no-remove --no-install-recommends "${missing[@]}")
   if [ "$(id -u)" -ne 0 ]; then
-    root=(sudo)
+    as_root=(sudo)
     if ! command -v sudo >/dev/null; then
       echo "Packages are missing. Run this as root:" >&2
       echo "  apt-get update && ${install[*]}" >&2
@@ -39,7 +39,7 @@ need_packages() {
   fi
 
   echo "== installing ${missing[*]}"
-  "${root[@]}" apt-get update -qq </dev/null
+  "${as_root[@]}" apt-get update -qq </dev/null
   in_the_way=$(apt-get install -s --no-install-recommends "${missing[@]}" 2>/dev/null |
     awk '$1 == "Remv" { print $2 }' | tr '\n' ' ') || true
   if [ -n "$in_the_way" ]; then
@@ -48,7 +48,7 @@ need_packages() {
     echo "docker/README says how to build beside what is installed." >&2
     exit 2
   fi
-  "${root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" </dev/null >/dev/null
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" </dev/null >/dev/null
 }
 
 # use_ccache ROOT: ccache finds what another clone of the project on this machine has built, and a
