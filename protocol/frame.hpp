@@ -1,0 +1,69 @@
+/// Binary messages: a group's begin and end, and chunk records in between or on their own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "protocol/chunk_record.hpp"
+#include "protocol/result.hpp"
+
+namespace earthwork::protocol {
+
+/// From here to the end, all records are one picture: the map as of `seq`.
+struct GroupBegin {
+  std::uint64_t epoch = 0;
+  std::uint64_t seq = 0;
+  std::uint32_t view = 0;
+  friend bool operator==(const GroupBegin&, const GroupBegin&) = default;
+};
+struct GroupEnd {
+  std::uint64_t seq = 0;
+  friend bool operator==(const GroupEnd&, const GroupEnd&) = default;
+};
+
+[[nodiscard]] std::string encode(const GroupBegin& begin);
+[[nodiscard]] std::string encode(const GroupEnd& end);
+
+/// Packs encoded records (`encode_record`) into messages of at most kMaxFrameBytes: many small
+/// ones into one message, one large one across several.
+class RecordPacker {
+ public:
+  /// `emit` receives each finished message.
+  explicit RecordPacker(std::function<void(std::string)> emit);
+  void add(std::string_view record);
+  /// Emits what is left, if anything.
+  void finish();
+
+ private:
+  std::function<void(std::string)> emit_;
+  std::string message_;
+};
+
+using FrameEvent = std::variant<GroupBegin, ChunkRecord, GroupEnd>;
+
+/// Takes a connection's binary messages in order and gives back what they hold. After a failure
+/// it must not be fed again.
+class FrameReader {
+ public:
+  /// Appends to `out` all that is complete. Holds at most kMaxRecordBytes.
+  [[nodiscard]] Result<void> feed(std::span<const std::byte> message, std::vector<FrameEvent>& out);
+  /// Between begin and end.
+  [[nodiscard]] bool in_group() const { return in_group_; }
+
+ private:
+  [[nodiscard]] Result<void> begin(std::span<const std::byte> body, std::vector<FrameEvent>& out);
+  [[nodiscard]] Result<void> end(std::span<const std::byte> body, std::vector<FrameEvent>& out);
+  [[nodiscard]] Result<void> records(std::span<const std::byte> body, std::vector<FrameEvent>& out);
+
+  std::vector<std::byte> partial_;  // the start of a record whose end has not come
+  bool in_group_ = false;
+  std::uint64_t group_seq_ = 0;  // of the group that is open
+};
+
+}  // namespace earthwork::protocol

@@ -1,0 +1,150 @@
+/// The control messages: JSON text, one object a message, "type" first when written.
+///
+/// `parse_*` checks a message completely: size, depth, UTF-8, types, ranges. What it returns can
+/// be used as it is, apart from the limits that need a map (`check_edit`).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "protocol/chunk_range.hpp"
+#include "protocol/edit.hpp"
+#include "protocol/json_text.hpp"
+#include "protocol/result.hpp"
+#include "protocol/settings.hpp"
+
+namespace earthwork::protocol {
+
+/// Message ids are integers 1 .. 2^53 - 1, chosen by the client.
+using MessageId = std::int64_t;
+
+struct Hello {
+  int protocol_min = kMinProtocol, protocol_max = kMaxProtocol;
+  std::string name;                  ///< 1 .. 64 characters.
+  std::optional<std::string> color;  ///< "#rrggbb".
+  std::optional<std::string> key;    ///< 32 hex digits: who the client was before.
+  std::optional<MessageId> id;
+  static constexpr int kMinProtocol = 1, kMaxProtocol = 1;
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+struct Join {
+  std::string map;
+  std::optional<std::uint64_t> seq;
+  std::optional<MessageId> id;
+  friend bool operator==(const Join&, const Join&) = default;
+};
+struct Leave {
+  std::optional<MessageId> id;
+  friend bool operator==(const Leave&, const Leave&) = default;
+};
+/// What a view's sender already has: complete up to seq inside rect, in that epoch.
+struct Have {
+  std::string epoch;
+  std::uint64_t seq = 0;
+  MapRect rect;
+  friend bool operator==(const Have&, const Have&) = default;
+};
+struct View {
+  std::uint32_t n = 0;          ///< Chosen by the client; echoed in groups and caught_up.
+  std::optional<MapRect> rect;  ///< None: everything ("all": true).
+  std::optional<Have> have;
+  std::optional<MessageId> id;
+  friend bool operator==(const View&, const View&) = default;
+};
+struct EditMessage {
+  MessageId id = 0;
+  Edit edit;
+  friend bool operator==(const EditMessage&, const EditMessage&) = default;
+};
+struct Undo {
+  MessageId id = 0;
+  friend bool operator==(const Undo&, const Undo&) = default;
+};
+struct Redo {
+  MessageId id = 0;
+  friend bool operator==(const Redo&, const Redo&) = default;
+};
+struct Cursor {
+  double x = 0, y = 0;
+  std::optional<MessageId> id;
+  friend bool operator==(const Cursor&, const Cursor&) = default;
+};
+struct Events {
+  std::uint64_t from_seq = 1;
+  std::optional<MessageId> id;
+  friend bool operator==(const Events&, const Events&) = default;
+};
+struct Ping {
+  std::optional<MessageId> id;
+  friend bool operator==(const Ping&, const Ping&) = default;
+};
+using ClientMessage =
+    std::variant<Hello, Join, Leave, View, EditMessage, Undo, Redo, Cursor, Events, Ping>;
+
+struct Welcome {
+  std::string session;          ///< Names the session to people and logs; 16 hex digits.
+  std::string key;              ///< 32 hex digits, a secret.
+  int protocol = 1;             ///< The version both will speak.
+  std::optional<MessageId> id;  ///< Of the hello, like every reply's. The limits are written from
+                                ///< protocol/limits.hpp and ignored when read.
+  friend bool operator==(const Welcome&, const Welcome&) = default;
+};
+struct User {
+  std::string session, name, color;
+  friend bool operator==(const User&, const User&) = default;
+};
+struct Joined {
+  std::string map;
+  MapSettings settings;
+  std::string epoch;  ///< 16 hex digits.
+  std::uint64_t seq = 0;
+  std::vector<User> users;
+  std::optional<MessageId> id;
+  friend bool operator==(const Joined&, const Joined&) = default;
+};
+struct Applied {
+  MessageId id = 0;
+  std::uint64_t seq = 0;
+  friend bool operator==(const Applied&, const Applied&) = default;
+};
+/// `id` is missing when the refused message had none that could be read.
+struct Rejected {
+  std::optional<MessageId> id;
+  Failure failure;  ///< Written as code, message and, unless empty, field.
+  friend bool operator==(const Rejected&, const Rejected&) = default;
+};
+struct CaughtUp {
+  std::uint32_t n = 0;
+  std::uint64_t seq = 0;
+  friend bool operator==(const CaughtUp&, const CaughtUp&) = default;
+};
+/// The reply to ping, leave and view messages that carry an id.
+struct Done {
+  MessageId id = 0;
+  friend bool operator==(const Done&, const Done&) = default;
+};
+struct Bye {
+  Failure failure;  ///< Written as code and message.
+  std::optional<std::uint32_t> retry_after_ms;
+  friend bool operator==(const Bye&, const Bye&) = default;
+};
+using ServerMessage = std::variant<Welcome, Joined, Applied, Rejected, CaughtUp, Done, Bye>;
+
+[[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);
+[[nodiscard]] std::string write(const ClientMessage& message);
+[[nodiscard]] Result<ServerMessage> parse_server_message(std::string_view text);
+[[nodiscard]] std::string write(const ServerMessage& message);
+
+/// The "id" of a message that could not be parsed, so that its refusal can carry it; nothing when
+/// there is none to be found before the place where the text stops being JSON.
+[[nodiscard]] std::optional<MessageId> salvage_id(std::string_view text);
+
+/// A view's rectangle covers at most kMaxViewChunks chunks of a map with these settings.
+[[nodiscard]] Result<void> check_view(const View& view, const MapSettings& settings);
+
+}  // namespace earthwork::protocol

@@ -1,0 +1,39 @@
+/// An edit script: JSON lines, a map's settings first and then edits and waits.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "protocol/edit.hpp"
+#include "protocol/result.hpp"
+#include "protocol/settings.hpp"
+
+namespace earthwork::protocol {
+
+/// Nothing is sent for so long.
+struct Wait {
+  std::int64_t ms = 0;  ///< 0 .. kMaxWaitMs.
+  friend bool operator==(const Wait&, const Wait&) = default;
+};
+
+using ScriptStep = std::variant<Edit, Wait>;
+using ScriptLine = std::variant<MapSettings, Edit, Wait>;
+
+struct Script {
+  std::optional<MapSettings> settings;  ///< None when the first line is not settings.
+  std::vector<ScriptStep> steps;
+  friend bool operator==(const Script&, const Script&) = default;
+};
+
+/// One line, not blank, with or without its line break: an object with "map", "stencil" or
+/// "wait_ms". Unknown keys are ignored. The line obeys the limits of a control message.
+[[nodiscard]] Result<ScriptLine> read_script_line(std::string_view line);
+
+/// A whole script. Blank lines are skipped; settings stand on the first line that is not blank, or
+/// nowhere. A failure's detail begins with "line N: ", counted from 1.
+[[nodiscard]] Result<Script> read_script(std::string_view text);
+
+}  // namespace earthwork::protocol

@@ -1,0 +1,207 @@
+// What a server sends: written on the server, read by bots and viewers.
+#include <nlohmann/json.hpp>
+
+#include "protocol/json_fields.hpp"
+#include "protocol/limits.hpp"
+#include "protocol/messages.hpp"
+
+namespace earthwork::protocol {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr std::int64_t kMaxVersion = 65535;
+constexpr std::size_t kKeyDigits = 32, kSessionDigits = 16, kEpochDigits = 16;
+
+/// Every limit of protocol/limits.hpp that a client meets, by its name there.
+ordered_json write_limits() {
+  return {
+      {"max_control_bytes", kMaxControlBytes},
+      {"max_server_control_bytes", kMaxServerControlBytes},
+      {"max_integer", kMaxInteger},
+      {"max_json_depth", kMaxJsonDepth},
+      {"max_radius_voxels", kMaxRadiusVoxels},
+      {"max_coordinate_voxels", kMaxCoordinateVoxels},
+      {"max_path_points", kMaxPathPoints},
+      {"max_edit_visits", kMaxEditVisits},
+      {"max_edit_chunks", kMaxEditChunks},
+      {"max_view_chunks", kMaxViewChunks},
+      {"max_chunk_coordinate", kMaxChunkCoordinate},
+      {"max_height", kMaxHeight},
+      {"max_name_bytes", kMaxNameBytes},
+      {"max_name_characters", kMaxNameCharacters},
+      {"max_layers", kMaxLayers},
+      {"max_frame_bytes", kMaxFrameBytes},
+      {"max_record_bytes", kMaxRecordBytes},
+      {"max_vertices", kMaxVertices},
+      {"mesh_coordinate_end", kMeshCoordinateEnd},
+      {"max_wait_ms", kMaxWaitMs},
+  };
+}
+
+MessageId read_id(JsonFields& in) { return in.integer("id", {1, kMaxInteger}); }
+
+std::optional<MessageId> read_optional_id(JsonFields& in) {
+  if (!in.has("id")) return std::nullopt;
+  return read_id(in);
+}
+
+std::uint64_t read_seq(JsonFields& in) { return static_cast<std::uint64_t>(in.integer("seq")); }
+
+std::uint32_t read_u32(JsonFields& in, const char* key) {
+  return static_cast<std::uint32_t>(in.integer(key, {0, UINT32_MAX}));
+}
+
+Failure read_failure(JsonFields& in) {
+  Failure failure;
+  failure.code = code_named(in.text("code"));
+  failure.detail = in.text("message");
+  if (in.has("field")) failure.field = in.text("field");
+  return failure;
+}
+
+Result<ServerMessage> read_welcome(JsonFields& in) {
+  Welcome welcome;
+  welcome.session = in.hex_digits("session", kSessionDigits);
+  welcome.key = in.hex_digits("key", kKeyDigits);
+  welcome.protocol = static_cast<int>(in.integer("protocol", {1, kMaxVersion}));
+  welcome.id = read_optional_id(in);
+  return in.result<ServerMessage>(std::move(welcome));
+}
+
+Result<User> read_user(JsonFields in) {
+  User user{.session = in.hex_digits("session", kSessionDigits),
+            .name = in.name("name"),
+            .color = in.color("color")};
+  return in.result(std::move(user));
+}
+
+std::vector<User> read_users(JsonFields& in) {
+  std::vector<User> users;
+  const json* array = in.array("users", 0, kMaxServerControlBytes);
+  if (!array) return users;
+  for (const json& element : *array) {
+    auto user = read_user(JsonFields(element, "users[" + std::to_string(users.size()) + "]"));
+    if (!user) {
+      in.refuse(std::move(user.error()));
+      break;
+    }
+    users.push_back(std::move(*user));
+  }
+  return users;
+}
+
+Result<ServerMessage> read_joined(JsonFields& in) {
+  Joined joined;
+  joined.map = in.map_name("map");
+  if (const json* object = in.value("settings")) {
+    auto settings = read_settings(*object);
+    if (settings)
+      joined.settings = std::move(*settings);
+    else
+      in.refuse(std::move(settings.error()));
+  }
+  joined.epoch = in.hex_digits("epoch", kEpochDigits);
+  joined.seq = read_seq(in);
+  joined.users = read_users(in);
+  joined.id = read_optional_id(in);
+  return in.result<ServerMessage>(std::move(joined));
+}
+
+Result<ServerMessage> read_rejected(JsonFields& in) {
+  Rejected rejected{.id = read_optional_id(in), .failure = read_failure(in)};
+  return in.result<ServerMessage>(std::move(rejected));
+}
+
+Result<ServerMessage> read_bye(JsonFields& in) {
+  Bye bye{.failure = read_failure(in), .retry_after_ms = {}};
+  if (in.has("retry_after_ms")) bye.retry_after_ms = read_u32(in, "retry_after_ms");
+  return in.result<ServerMessage>(std::move(bye));
+}
+
+Result<ServerMessage> read_message(const json& object) {
+  JsonFields in(object, {}, Code::bad_message);
+  const std::string type = in.text("type");
+  if (in.failed()) return in.result(ServerMessage{});
+  if (type == "applied")
+    return in.result<ServerMessage>(Applied{.id = read_id(in), .seq = read_seq(in)});
+  if (type == "rejected") return read_rejected(in);
+  if (type == "caught_up")
+    return in.result<ServerMessage>(CaughtUp{.n = read_u32(in, "n"), .seq = read_seq(in)});
+  if (type == "done") return in.result<ServerMessage>(Done{.id = read_id(in)});
+  if (type == "welcome") return read_welcome(in);
+  if (type == "joined") return read_joined(in);
+  if (type == "bye") return read_bye(in);
+  return fail(Code::bad_message, "type: is no message of a server", "type");
+}
+
+/// Adds a message's fields after its type. One overload a message.
+struct Writer {
+  ordered_json& out;
+
+  const char* operator()(const Welcome& welcome) const {
+    out["session"] = welcome.session;
+    out["key"] = welcome.key;
+    out["protocol"] = welcome.protocol;
+    out["limits"] = write_limits();
+    return with_id("welcome", welcome.id);
+  }
+  const char* operator()(const Joined& joined) const {
+    out["map"] = joined.map;
+    out["settings"] = write_settings(joined.settings);
+    out["epoch"] = joined.epoch;
+    out["seq"] = joined.seq;
+    auto& users = out["users"] = ordered_json::array();
+    for (const User& user : joined.users)
+      users.push_back({{"session", user.session}, {"name", user.name}, {"color", user.color}});
+    return with_id("joined", joined.id);
+  }
+  const char* operator()(const Applied& applied) const {
+    with_id("applied", applied.id);
+    out["seq"] = applied.seq;
+    return "applied";
+  }
+  const char* operator()(const Rejected& rejected) const {
+    with_id("rejected", rejected.id);
+    write_failure(rejected.failure);
+    return "rejected";
+  }
+  const char* operator()(const CaughtUp& caught_up) const {
+    out["n"] = caught_up.n;
+    out["seq"] = caught_up.seq;
+    return "caught_up";
+  }
+  const char* operator()(const Done& done) const { return with_id("done", done.id); }
+  const char* operator()(const Bye& bye) const {
+    write_failure(bye.failure);
+    if (bye.retry_after_ms) out["retry_after_ms"] = *bye.retry_after_ms;
+    return "bye";
+  }
+
+  void write_failure(const Failure& failure) const {
+    out["code"] = name(failure.code);
+    out["message"] = failure.detail;
+    if (!failure.field.empty()) out["field"] = failure.field;
+  }
+  const char* with_id(const char* type, std::optional<MessageId> id) const {
+    if (id) out["id"] = *id;
+    return type;
+  }
+};
+
+}  // namespace
+
+Result<ServerMessage> parse_server_message(std::string_view text) {
+  auto object = parse_json(text, kMaxServerControlBytes);
+  if (!object) return tl::unexpected<Failure>(std::move(object.error()));
+  return read_message(*object);
+}
+
+std::string write(const ServerMessage& message) {
+  ordered_json out{{"type", ""}};  // first, whatever follows
+  out["type"] = std::visit(Writer{out}, message);
+  return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace earthwork::protocol
