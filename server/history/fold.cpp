@@ -1,0 +1,43 @@
+#include "server/history/fold.hpp"
+
+#include <vector>
+
+namespace earthwork::history {
+namespace {
+
+voxel::Grid grid_of(const protocol::MapSettings& settings) {
+  voxel::Grid grid{.resolution = settings.chunk_resolution,
+                   .voxel_size = settings.voxel_size,
+                   .layers = static_cast<int>(settings.layers.size()),
+                   .bounds = {}};
+  if (settings.chunks) {
+    const auto& c = *settings.chunks;
+    grid.bounds = voxel::ChunkRect{c[0], c[1], c[2], c[3]};
+  }
+  return grid;
+}
+
+voxel::Shape shape_of(protocol::StencilShape stencil) {
+  return stencil == protocol::StencilShape::square ? voxel::Shape::square : voxel::Shape::circle;
+}
+
+}  // namespace
+
+voxel::Map make_map(const protocol::MapSettings& settings) {
+  return voxel::Map(grid_of(settings));
+}
+
+const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit) {
+  std::vector<voxel::Stencil> stamps;
+  stamps.reserve(edit.path.size());
+  for (const protocol::MapPoint& p : edit.path) {
+    stamps.push_back({.x = p.x,
+                      .y = p.y,
+                      .radius = edit.radius,
+                      .shape = shape_of(edit.stencil),
+                      .fill = edit.fill ? voxel::Fill::filled : voxel::Fill::empty});
+  }
+  return map.apply(static_cast<int>(edit.layer), stamps);
+}
+
+}  // namespace earthwork::history

@@ -1,0 +1,19 @@
+/// From commands to a map: the one place where a protocol edit becomes voxels.
+#pragma once
+
+#include <span>
+
+#include "protocol/edit.hpp"
+#include "protocol/settings.hpp"
+#include "server/voxel/map.hpp"
+
+namespace earthwork::history {
+
+/// An empty map with these settings.
+[[nodiscard]] voxel::Map make_map(const protocol::MapSettings& settings);
+
+/// Applies an edit that `protocol::check_edit` accepted, now or when it was recorded. The result is
+/// valid until the map's next edit.
+const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit);
+
+}  // namespace earthwork::history

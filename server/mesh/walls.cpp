@@ -1,0 +1,71 @@
+#include "server/mesh/walls.hpp"
+
+#include <cmath>
+
+namespace earthwork::mesh {
+
+// The root of a sum of squares below 2^53 and one division: the same on every build.
+voxel::Normal repaired(voxel::Normal normal, Point a, Point b) {
+  const std::int64_t x = b.y - a.y, y = a.x - b.x;  // to the right of a -> b: outward
+  if (normal.x * x + normal.y * y > 0) return normal;
+  const double length = std::sqrt(static_cast<double>(x * x + y * y));
+  const auto component = [length](std::int64_t v) {
+    return static_cast<std::int16_t>(
+        std::lround(static_cast<double>(voxel::kNormalUnit * v) / length));
+  };
+  return {component(x), component(y)};
+}
+
+void WallTracer::trace(const ContourGraph& graph, std::vector<Section>& sections) {
+  sections.clear();
+  sections_ = &sections;
+  done_.assign(graph.to.size(), 0);
+  dropped_.assign(graph.points.size(), 0);
+  for (const bool closed : {false, true}) {
+    for (const std::uint16_t point : graph.order) {
+      const bool starts = point < graph.to.size() && graph.to[point] != kNone && !done_[point];
+      if (starts && (closed || !graph.entered[point])) trace_from(graph, point);
+    }
+  }
+}
+
+void WallTracer::trace_from(const ContourGraph& graph, std::uint16_t start) {
+  first_ = sections_->size();
+  std::uint16_t at = start;
+  do {
+    done_[at] = 1;
+    const std::uint16_t to = graph.to[at], tip = graph.feature[at];
+    const voxel::Normal here = graph.normals[at], there = graph.normals[to];
+    if (tip == kNone) {
+      add(graph, {at, to, here, there});
+    } else {
+      add(graph, {at, tip, here, here});
+      add(graph, {tip, to, there, there});
+    }
+    at = to;
+  } while (at != start && graph.to[at] != kNone);
+}
+
+void WallTracer::add(const ContourGraph& graph, Section section) {
+  const Point a = graph.points[section.a], b = graph.points[section.b];
+  section.normal_a = repaired(section.normal_a, a, b);
+  section.normal_b = repaired(section.normal_b, a, b);
+  if (sections_->size() > first_) {
+    Section& last = sections_->back();
+    const bool one_normal = last.normal_b == section.normal_a && last.normal_a == last.normal_b &&
+                            section.normal_a == section.normal_b;
+    const bool loose = section.a >= graph.fixed.size() || !graph.fixed[section.a];
+    if (one_normal && loose) {
+      const Point before = graph.points[last.a];
+      const std::int64_t ux = a.x - before.x, uy = a.y - before.y, vx = b.x - a.x, vy = b.y - a.y;
+      if (ux * vy == uy * vx) {
+        dropped_[section.a] = 1;
+        last.b = section.b;
+        return;
+      }
+    }
+  }
+  sections_->push_back(section);
+}
+
+}  // namespace earthwork::mesh

@@ -1,0 +1,38 @@
+/// The fixed frame of a map: how many voxels a chunk has, how large they are, where the map ends.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace earthwork::voxel {
+
+inline constexpr int kMaxResolution = 64;    ///< Voxels along a chunk's side, at most.
+inline constexpr int kMaxVoxel = 1'000'000;  ///< Voxel coordinates reach from -this to this.
+inline constexpr int kMaxLayers = 16;
+
+/// Chunks x0 <= x < x1, y0 <= y < y1.
+struct ChunkRect {
+  std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool contains(std::int32_t x, std::int32_t y) const {
+    return x0 <= x && x < x1 && y0 <= y && y < y1;
+  }
+  friend bool operator==(const ChunkRect&, const ChunkRect&) = default;
+};
+
+/// Valid values only: resolution 8, 16, 32 or 64; voxel_size finite and > 0; layers 1 .. 16;
+/// bounds not empty and inside `world()`.
+struct Grid {
+  int resolution = 32;
+  double voxel_size = 1;  ///< Map units between voxels.
+  int layers = 1;
+  std::optional<ChunkRect> bounds;  ///< Nothing exists beyond them; without them, beyond `world()`.
+
+  /// The chunks that hold a voxel with coordinates in -10^6 .. 10^6; a chunk at the end is whole.
+  ChunkRect world() const {
+    const std::int32_t n = kMaxVoxel / resolution;
+    return {-n, -n, n + 1, n + 1};
+  }
+  ChunkRect extent() const { return bounds ? *bounds : world(); }
+};
+
+}  // namespace earthwork::voxel
