@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "protocol/limits.hpp"
+#include "protocol/messages.hpp"
+#include "tests/protocol/arbitrary.hpp"
+
+namespace earthwork::protocol {
+namespace {
+
+std::string echo(std::string_view text) {
+  const auto message = parse_server_message(text);
+  if (message) return write(*message);
+  return std::string(name(message.error().code)) + ": " + message.error().detail;
+}
+
+TEST(ServerMessage, IsWrittenAsItIsRead) {
+  for (
+      const char* text : {
+          R"({"type":"joined","map":"demo","settings":{"chunk_resolution":32,"layers":[{"color":"#8a9a5b","name":"ground","wall":[-1.0,0.0]}],"max_feature_angle":135.0,"voxel_size":1.0},"epoch":"0123456789abcdef","seq":7,"users":[{"session":"fedcba9876543210","name":"Jö","color":"#112233"}],"id":2})",
+          R"({"type":"applied","id":3,"seq":12})",
+          R"({"type":"rejected","id":4,"code":"out_of_range","message":"radius: 600 voxels is beyond the limit of 512","field":"radius"})",
+          R"({"type":"rejected","code":"bad_json","message":"not JSON from byte 1 on"})",
+          R"({"type":"caught_up","n":1,"seq":12})",
+          R"({"type":"done","id":5})",
+          R"({"type":"bye","code":"bad_version","message":"no version in common"})",
+          R"({"type":"bye","code":"internal","message":"later","retry_after_ms":500})",
+      })
+    EXPECT_EQ(echo(text), text);
+}
+
+TEST(ServerMessage, WelcomesWithEveryLimitByName) {
+  const std::string text =
+      write(Welcome{"0123456789abcdef", "00112233445566778899aabbccddeeff", 1, 5});
+  EXPECT_EQ(text.rfind(R"({"type":"welcome","session":"0123456789abcdef",)", 0), 0u);
+  const auto limits = nlohmann::json::parse(text)["limits"];
+  EXPECT_EQ(limits["max_control_bytes"], 65536);
+  EXPECT_EQ(limits["max_json_depth"], 16);
+  EXPECT_EQ(limits["max_radius_voxels"], 512);
+  EXPECT_EQ(limits["max_coordinate_voxels"], 1'000'000);
+  EXPECT_EQ(limits["max_path_points"], 1024);
+  EXPECT_EQ(limits["max_edit_visits"], 16'777'216);
+  EXPECT_EQ(limits["max_edit_chunks"], 4096);
+  EXPECT_EQ(limits["max_view_chunks"], 16384);
+  EXPECT_EQ(limits["max_name_characters"], 64);
+  EXPECT_EQ(limits["max_frame_bytes"], 16384);
+  const auto read = parse_server_message(text);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(std::get<Welcome>(*read).id, 5);
+}
+
+TEST(ServerMessage, RefusesWhatIsNone) {
+  EXPECT_EQ(echo(R"({"type":"ping"})"), "bad_message: type: is no message of a server");
+  EXPECT_EQ(echo(R"({"type":"applied","id":1})"), "bad_field: seq: is missing");
+  EXPECT_EQ(echo(R"({"type":"applied","id":1,"seq":-1})"),
+            "out_of_range: seq: is outside 0 .. 9007199254740991");
+  EXPECT_EQ(echo(R"({"type":"joined","map":"a","settings":{"voxel_size":0}})"),
+            "out_of_range: voxel_size: 0 is outside 1e-06 .. 1000000");
+  EXPECT_EQ(echo(R"({"type":"joined","map":"a","settings":{},"epoch":"0123456789abcdef","seq":1,)"
+                 R"("users":[{"session":"x"}]})"),
+            "bad_field: users[0].session: is not 16 hex digits in lower case");
+}
+
+TEST(ServerMessage, ReadsACodeOfALaterServerAsInternal) {
+  EXPECT_EQ(echo(R"({"type":"rejected","id":4,"code":"too_tired","message":"m"})"),
+            R"({"type":"rejected","id":4,"code":"internal","message":"m"})");
+}
+
+TEST(ServerMessage, NeverThrowsOverABrokenDetail) {
+  const std::string text = write(Rejected{1, Failure{Code::bad_name, "no \xff here", "map"}});
+  EXPECT_TRUE(parse_server_message(text));
+}
+
+TEST(Code, HasANameOfItsOwn) {
+  for (int i = 0; i <= static_cast<int>(Code::internal); ++i)
+    EXPECT_EQ(code_named(name(static_cast<Code>(i))), static_cast<Code>(i));
+  EXPECT_EQ(name(Code::bad_json), "bad_json");
+  EXPECT_EQ(name(Code::not_supported), "not_supported");
+  EXPECT_EQ(name(Code::internal), "internal");
+}
+
+RC_GTEST_PROP(ServerMessage, SurvivesTheRoundTrip, ()) {
+  const ServerMessage message = *any_server_message();
+  const auto read = parse_server_message(write(message));
+  RC_ASSERT(read.has_value());
+  RC_ASSERT(*read == message);
+}
+
+}  // namespace
+}  // namespace earthwork::protocol
