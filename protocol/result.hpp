@@ -23,6 +23,8 @@ enum class Code : std::uint8_t {
   map_exists,
   bad_name,
   not_supported,  ///< Understood, and not offered by this server.
+  timeout,        ///< Nothing was heard for too long.
+  shutting_down,  ///< The server ends.
   internal,
 };
 

@@ -1,0 +1,192 @@
+#include "server/room/room.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "protocol/limits.hpp"
+#include "server/history/fold.hpp"
+
+namespace earthwork::room {
+namespace {
+
+using protocol::Code;
+
+// A turn applies edits until either bound, then shows them: so that a crowd of editors is meshed
+// and sent for once, and that a flood of edits does not keep everybody waiting.
+constexpr int kTurnEdits = 512;
+constexpr std::size_t kTurnDirtyChunks = 1024;
+
+// A group without a chunk says how far the map is: at most 10 a second.
+constexpr std::chrono::milliseconds kBeat{100};
+// `joined` lists this many; it stays far below kMaxServerControlBytes.
+constexpr std::size_t kMaxListedUsers = 1000;
+
+}  // namespace
+
+Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch,
+           std::unique_ptr<Strand> strand)
+    : name_(std::move(name)),
+      settings_(std::move(settings)),
+      epoch_(epoch),
+      strand_(std::move(strand)),
+      map_(history::make_map(settings_)),
+      meshes_(settings_.max_feature_angle) {}
+
+protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, protocol::User user) {
+  if (closed_) return protocol::fail(Code::unknown_map, "map: it was deleted", "map");
+  const ViewerId id = ++last_viewer_;
+  Seat& seat = seats_[id];
+  seat.viewer = std::move(viewer);
+  seat.user = std::move(user);
+
+  protocol::Joined joined{.map = name_,
+                          .settings = settings_,
+                          .epoch = protocol::hex(epoch_),
+                          .seq = seq(),
+                          .users = {},
+                          .id = {}};
+  for (const auto& [other, other_seat] : seats_) {
+    if (joined.users.size() == kMaxListedUsers) break;
+    joined.users.push_back(other_seat.user);
+  }
+  return Entrance{id, std::move(joined)};
+}
+
+void Room::leave(ViewerId viewer) { seats_.erase(viewer); }
+
+protocol::Result<void> Room::look(ViewerId viewer, const protocol::View& view) {
+  const auto found = seats_.find(viewer);
+  if (found == seats_.end()) return protocol::fail(Code::bad_state, "view: join a map first");
+  if (auto checked = protocol::check_view(view, settings_); !checked) return checked;
+  if (!view.rect && meshes_.count() > protocol::kMaxViewChunks)
+    return protocol::fail(Code::too_large,
+                          "all: the map has " + std::to_string(meshes_.count()) +
+                              " chunks, beyond a view's limit of " +
+                              std::to_string(protocol::kMaxViewChunks),
+                          "all");
+  found->second.subscription.look(view, settings_, state());
+  schedule_turn();
+  return {};
+}
+
+void Room::ready(ViewerId viewer) {
+  const auto found = seats_.find(viewer);
+  if (found == seats_.end()) return;
+  found->second.ready = true;
+  publish_to(found->second, Beat::wait);
+}
+
+protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
+  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "edit: join a map first");
+  if (auto checked = protocol::check_edit(command.edit, settings_); !checked) return checked;
+  waiting_.push_back({viewer, std::move(command)});
+  schedule_turn();
+  return {};
+}
+
+void Room::post(void (Room::*task)()) {
+  strand_->post([self = shared_from_this(), task] { ((*self).*task)(); });
+}
+
+void Room::schedule_turn() {
+  if (turn_scheduled_) return;
+  turn_scheduled_ = true;
+  post(&Room::turn);
+}
+
+void Room::turn() {
+  turn_scheduled_ = false;
+  std::vector<voxel::ChunkKey> dirty;
+  for (int n = 0; n < kTurnEdits && dirty.size() < kTurnDirtyChunks && !waiting_.empty(); ++n)
+    apply_next(dirty);
+  std::sort(dirty.begin(), dirty.end());
+  dirty.erase(std::unique(dirty.begin(), dirty.end()), dirty.end());
+  for (auto& [id, seat] : seats_) seat.subscription.owe(dirty);
+
+  acknowledge();
+  publish(Beat::wait);
+  if (!waiting_.empty()) schedule_turn();
+}
+
+void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
+  Waiting next = std::move(waiting_.front());
+  waiting_.pop_front();
+
+  const voxel::Change& change = history::apply(map_, next.command.edit);
+  meshes_.mark_stale(change);
+  for (const voxel::DirtyChunk& chunk : change.dirty) dirty.push_back(chunk.key);
+
+  events_.push_back({.seq = seq() + 1,
+                     .time_ms = strand_->now_ms(),
+                     .author = next.command.author,
+                     .edit = std::move(next.command.edit)});
+  if (const auto seat = seats_.find(next.viewer); seat != seats_.end())
+    seat->second.told.push_back({.id = next.command.id, .seq = seq()});
+}
+
+void Room::acknowledge() {
+  for (auto& [id, seat] : seats_)
+    if (!seat.told.empty()) seat.viewer->applied(std::exchange(seat.told, {}));
+}
+
+void Room::publish(Beat beat) {
+  for (auto& [id, seat] : seats_) publish_to(seat, beat);
+}
+
+void Room::publish_to(Seat& seat, Beat beat) {
+  if (!seat.ready) return;
+  const bool due = beat == Beat::due && seat.subscription.behind(seq());
+  if (due || seat.subscription.waiting()) {
+    if (Parcel parcel = seat.subscription.compose(state(), beat); !parcel.empty()) {
+      seat.ready = false;
+      seat.viewer->deliver(std::move(parcel));
+    } else if (seat.subscription.waiting()) {
+      schedule_turn();  // a stretch of a first load that held nothing
+    }
+  }
+  if (seat.ready && seat.subscription.behind(seq())) schedule_beat();
+}
+
+void Room::schedule_beat() {
+  if (beat_scheduled_) return;
+  beat_scheduled_ = true;
+  strand_->post_after(kBeat, [weak = weak_from_this()] {
+    const auto self = weak.lock();
+    if (!self) return;
+    self->beat_scheduled_ = false;
+    self->publish(Beat::due);
+  });
+}
+
+RoomInfo Room::info() {
+  return {.seq = seq(), .hash = map_.hash(), .chunks = map_.chunk_count(), .users = seats_.size()};
+}
+
+bool Room::refresh_meshes(std::size_t budget) { return meshes_.refresh(map_, seq(), budget); }
+
+RoomFigures Room::figures() {
+  if (!figures_ || figures_->seq != seq())
+    figures_ = RoomFigures{.seq = seq(),
+                           .hash = map_.hash(),
+                           .chunks = map_.chunk_count(),
+                           .voxel_bytes = map_.memory_bytes(),
+                           .geometry = mesh::count_figures(map_, settings_.max_feature_angle),
+                           .meshes = meshes_.totals()};
+  return *figures_;
+}
+
+MeshSnapshot Room::meshes() const {
+  return {.seq = seq(), .mesh_hash = meshes_.totals().hash, .records = meshes_.records()};
+}
+
+protocol::Result<StatesPicture> Room::states(std::uint64_t layer) const {
+  return draw_states(map_, layer);
+}
+
+void Room::close(const protocol::Bye& bye) {
+  closed_ = true;
+  waiting_.clear();
+  for (auto& [id, seat] : std::exchange(seats_, {})) seat.viewer->end(bye);
+}
+
+}  // namespace earthwork::room

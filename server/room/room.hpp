@@ -1,0 +1,138 @@
+/// A live map: it gives edits their order, applies them, and shows them to its viewers.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/messages.hpp"
+#include "protocol/settings.hpp"
+#include "server/history/event.hpp"
+#include "server/mesh/figures.hpp"
+#include "server/room/mesh_cache.hpp"
+#include "server/room/states_picture.hpp"
+#include "server/room/strand.hpp"
+#include "server/room/subscription.hpp"
+#include "server/room/viewer.hpp"
+#include "server/voxel/map.hpp"
+
+namespace earthwork::room {
+
+/// Given when a viewer joins; never used twice in one room.
+using ViewerId = std::uint64_t;
+
+struct RoomInfo {
+  std::uint64_t seq = 0, hash = 0;
+  std::size_t chunks = 0;  ///< Kept: with a filled voxel or a crossing.
+  std::size_t users = 0;
+};
+
+struct RoomFigures {
+  std::uint64_t seq = 0, hash = 0;
+  std::size_t chunks = 0;
+  std::size_t voxel_bytes = 0;  ///< Of memory, for states and crossings.
+  mesh::Figures geometry;
+  MeshTotals meshes;
+};
+
+/// All meshes as of one seq.
+struct MeshSnapshot {
+  std::uint64_t seq = 0, mesh_hash = 0;
+  std::vector<RecordBytes> records;  ///< In order of their keys.
+};
+
+/// name, settings, epoch and strand: any thread. Everything else: on the strand only, which also
+/// calls the viewers. Held by shared_ptr; a task on its strand keeps it alive.
+class Room : public std::enable_shared_from_this<Room> {
+ public:
+  /// An empty map. `settings` is valid.
+  Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch,
+       std::unique_ptr<Strand> strand);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const protocol::MapSettings& settings() const { return settings_; }
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+  [[nodiscard]] Strand& strand() const { return *strand_; }
+
+  struct Entrance {
+    ViewerId viewer = 0;
+    protocol::Joined joined;  ///< Without an id.
+  };
+  /// Fails with unknown_map when the room was closed.
+  [[nodiscard]] protocol::Result<Entrance> join(std::shared_ptr<Viewer> viewer,
+                                                protocol::User user);
+  /// After it the viewer is not called again.
+  void leave(ViewerId viewer);
+  /// Changes what the viewer is shown; parcels follow later, never from within the call. Fails
+  /// with too_large for more than kMaxViewChunks.
+  [[nodiscard]] protocol::Result<void> look(ViewerId viewer, const protocol::View& view);
+  /// The viewer has sent the last parcel on, and takes the next one.
+  void ready(ViewerId viewer);
+
+  struct Command {
+    protocol::MessageId id = 0;
+    std::uint64_t author = 0;
+    protocol::Edit edit;
+  };
+  /// Puts an edit in line. Fails when `check_edit` does; then it has no number. Otherwise the
+  /// viewer is told its number later, never from within the call.
+  [[nodiscard]] protocol::Result<void> submit(ViewerId viewer, Command command);
+
+  [[nodiscard]] RoomInfo info();
+  /// Brings up to `budget` chunks' meshes up to date; true when all are.
+  [[nodiscard]] bool refresh_meshes(std::size_t budget);
+  /// After `refresh_meshes` gave true in the same task.
+  [[nodiscard]] RoomFigures figures();
+  [[nodiscard]] MeshSnapshot meshes() const;
+  [[nodiscard]] protocol::Result<StatesPicture> states(std::uint64_t layer) const;
+  /// All that was accepted, in order. Valid until the next task.
+  [[nodiscard]] std::span<const history::Event> events() const { return events_; }
+
+  /// Says `bye` to all viewers and lets nobody in again.
+  void close(const protocol::Bye& bye);
+
+ private:
+  struct Seat {
+    std::shared_ptr<Viewer> viewer;
+    protocol::User user;
+    Subscription subscription;
+    bool ready = true;                    // to take a parcel
+    std::vector<protocol::Applied> told;  // of this turn
+  };
+  struct Waiting {
+    ViewerId viewer = 0;
+    Command command;
+  };
+
+  void post(void (Room::*task)());
+  void schedule_turn();
+  void turn();
+  void apply_next(std::vector<voxel::ChunkKey>& dirty);
+  void acknowledge();
+  void publish(Beat beat);
+  void publish_to(Seat& seat, Beat beat);
+  void schedule_beat();
+  [[nodiscard]] MapState state() { return {map_, meshes_, epoch_, seq()}; }
+  [[nodiscard]] std::uint64_t seq() const { return events_.size(); }
+
+  const std::string name_;
+  const protocol::MapSettings settings_;
+  const std::uint64_t epoch_;
+  const std::unique_ptr<Strand> strand_;
+
+  voxel::Map map_;
+  MeshCache meshes_;
+  std::vector<history::Event> events_;  // event n at n - 1
+  std::deque<Waiting> waiting_;         // bounded by the sessions' windows
+  std::map<ViewerId, Seat> seats_;
+  ViewerId last_viewer_ = 0;
+  std::optional<RoomFigures> figures_;  // the last ones asked for
+  bool turn_scheduled_ = false, beat_scheduled_ = false, closed_ = false;
+};
+
+}  // namespace earthwork::room

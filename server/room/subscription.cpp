@@ -1,0 +1,111 @@
+#include "server/room/subscription.hpp"
+
+#include <iterator>
+
+namespace earthwork::room {
+namespace {
+
+// A parcel of a first load ends after either: so that groups get between, and that the strand is
+// not held for long.
+constexpr std::size_t kFirstLoadBytes = 64 * 1024;
+constexpr int kFirstLoadChunks = 128;
+
+}  // namespace
+
+std::vector<voxel::ChunkKey> Subscription::candidates(const ViewArea& area,
+                                                      const MeshCache& meshes) const {
+  const protocol::ChunkRange& range = area.range();
+  std::vector<voxel::ChunkKey> keys;
+  if (claim_ || range.count() > meshes.count()) {
+    // Removed chunks are listed too: a viewer that claims to have some must hear of them.
+    for (const voxel::ChunkKey& key : meshes.keys())
+      if (area.contains(key)) keys.push_back(key);
+    return keys;
+  }
+  for (std::int32_t layer = 0; layer < static_cast<std::int32_t>(layers_); ++layer)
+    for (std::int32_t x = range.x0; x < range.x1; ++x)
+      for (std::int32_t y = range.y0; y < range.y1; ++y)
+        if (const voxel::ChunkKey key{layer, x, y, 0}; meshes.may_have_mesh(key))
+          keys.push_back(key);
+  return keys;
+}
+
+void Subscription::look(const protocol::View& view, const protocol::MapSettings& settings,
+                        const MapState& state) {
+  const ViewArea before = area_;
+  std::set<voxel::ChunkKey> unseen_before;
+  for (const Ranked& ranked : unseen_) unseen_before.insert(ranked.second);
+
+  area_ = ViewArea(view.rect, settings);
+  layers_ = settings.layers.size();
+  claim_.reset();
+  if (view.have && view.have->epoch == protocol::hex(state.epoch) && view.have->seq <= state.seq)
+    claim_ = Claim{ViewArea(view.have->rect, settings), view.have->seq};
+
+  unseen_.clear();
+  for (const voxel::ChunkKey& key : candidates(area_, state.meshes))
+    if (!before.contains(key) || unseen_before.contains(key)) unseen_.insert(ranked(key));
+  std::erase_if(owed_, [&](const voxel::ChunkKey& key) { return !area_.contains(key); });
+
+  if (!looks_) complete_seq_ = state.seq;  // it has nothing yet, so nothing that is older
+  looks_ = true;
+  view_ = view.n;
+  caught_up_ = false;
+}
+
+void Subscription::owe(std::span<const voxel::ChunkKey> dirty) {
+  if (!looks_) return;
+  for (const voxel::ChunkKey& key : dirty)
+    if (area_.contains(key) && !unseen_.contains(ranked(key))) owed_.insert(key);
+}
+
+Parcel Subscription::compose(const MapState& state, Beat beat) {
+  Parcel parcel;
+  if (!looks_) return parcel;
+  parcel.group_records = take_owed(state);
+  parcel.first_seen = take_unseen(state);
+  complete_seq_ = state.seq;
+
+  if (!parcel.group_records.empty() || (beat == Beat::due && told_seq_ < state.seq)) {
+    parcel.group = protocol::GroupBegin{.epoch = state.epoch, .seq = state.seq, .view = view_};
+    told_seq_ = state.seq;
+  }
+  if (unseen_.empty() && !caught_up_) {
+    parcel.caught_up = protocol::CaughtUp{.n = view_, .seq = state.seq};
+    caught_up_ = true;
+    told_seq_ = state.seq;
+  }
+  return parcel;
+}
+
+std::vector<RecordBytes> Subscription::take_owed(const MapState& state) {
+  std::vector<RecordBytes> records;
+  for (const voxel::ChunkKey& key : owed_) {
+    const CachedMesh* cached = state.meshes.current(state.map, key, state.seq);
+    if (cached && cached->revision > complete_seq_) records.push_back(cached->bytes);
+  }
+  owed_.clear();
+  return records;
+}
+
+std::vector<RecordBytes> Subscription::take_unseen(const MapState& state) {
+  std::vector<RecordBytes> records;
+  std::size_t bytes = 0;
+  for (int chunks = 0; !unseen_.empty() && bytes < kFirstLoadBytes && chunks < kFirstLoadChunks;
+       ++chunks) {
+    const voxel::ChunkKey key = unseen_.begin()->second;
+    unseen_.erase(unseen_.begin());
+    const CachedMesh* cached = state.meshes.current(state.map, key, state.seq);
+    if (!cached || already_has(key, *cached)) continue;
+    records.push_back(cached->bytes);
+    bytes += cached->bytes->size();
+  }
+  return records;
+}
+
+bool Subscription::already_has(const voxel::ChunkKey& key, const CachedMesh& cached) const {
+  const bool claimed = claim_ && claim_->area.contains(key);
+  return claimed ? cached.revision <= claim_->seq : cached.removed;
+}
+
+}  // namespace earthwork::room
