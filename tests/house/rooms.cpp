@@ -84,7 +84,7 @@ const std::vector<Room>& rooms() {
       {"server/journal", {"protocol"}, {"sqlite3.h", "spdlog/", "fmt/"}},
       {"server/room",
        {"server/journal", "server/history", "server/mesh", "server/voxel", "protocol"},
-       {"boost/", "spdlog/", "fmt/"}},
+       {"boost/", "spdlog/", "fmt/", "unistd.h"}},
       {"server/net",
        {"server/room", "protocol", "protocol/gltf"},
        {"boost/", "nlohmann/", "tl/", "spdlog/", "fmt/", "png.h"}},
