@@ -44,28 +44,38 @@ void WallTracer::trace_from(const ContourGraph& graph, std::uint16_t start) {
     }
     at = to;
   } while (at != start && graph.to[at] != kNone);
+  if (at == start) close(graph);
 }
 
 void WallTracer::add(const ContourGraph& graph, Section section) {
   const Point a = graph.points[section.a], b = graph.points[section.b];
   section.normal_a = repaired(section.normal_a, a, b);
   section.normal_b = repaired(section.normal_b, a, b);
-  if (sections_->size() > first_) {
-    Section& last = sections_->back();
-    const bool one_normal = last.normal_b == section.normal_a && last.normal_a == last.normal_b &&
-                            section.normal_a == section.normal_b;
-    const bool loose = section.a >= graph.fixed.size() || !graph.fixed[section.a];
-    if (one_normal && loose) {
-      const Point before = graph.points[last.a];
-      const std::int64_t ux = a.x - before.x, uy = a.y - before.y, vx = b.x - a.x, vy = b.y - a.y;
-      if (ux * vy == uy * vx) {
-        dropped_[section.a] = 1;
-        last.b = section.b;
-        return;
-      }
-    }
+  if (sections_->size() > first_ && straight(graph, sections_->back(), section)) {
+    dropped_[section.a] = 1;
+    sections_->back().b = section.b;
+  } else {
+    sections_->push_back(section);
   }
-  sections_->push_back(section);
+}
+
+// The end of a closed contour may go straight on into its start.
+void WallTracer::close(const ContourGraph& graph) {
+  Section &first = (*sections_)[first_], &last = sections_->back();
+  if (!straight(graph, last, first)) return;
+  dropped_[first.a] = 1;
+  first.a = last.a;
+  sections_->pop_back();
+}
+
+bool WallTracer::straight(const ContourGraph& graph, const Section& before, const Section& after) {
+  const bool one_normal = before.normal_a == before.normal_b && before.normal_b == after.normal_a &&
+                          after.normal_a == after.normal_b;
+  if (!one_normal) return false;
+  if (after.a < graph.fixed.size() && graph.fixed[after.a]) return false;
+  const Point a = graph.points[before.a], b = graph.points[after.a], c = graph.points[after.b];
+  const std::int64_t ux = b.x - a.x, uy = b.y - a.y, vx = c.x - b.x, vy = c.y - b.y;
+  return ux * vy == uy * vx;
 }
 
 }  // namespace earthwork::mesh

@@ -21,6 +21,8 @@ class WallTracer {
  private:
   void trace_from(const ContourGraph& graph, std::uint16_t start);
   void add(const ContourGraph& graph, Section section);
+  void close(const ContourGraph& graph);
+  static bool straight(const ContourGraph& graph, const Section& before, const Section& after);
 
   std::vector<Section>* sections_ = nullptr;
   std::size_t first_ = 0;  // section of the contour being traced

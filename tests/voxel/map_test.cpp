@@ -176,6 +176,19 @@ TEST(Map, AnInnerVoxelMarksItsFourCellsOnly) {
   EXPECT_EQ(change.dirty[0].cells, (CellRect{2, 3, 4, 5}));
 }
 
+// In the row 1.5 above its centre the circle is as wide as the square: 2 to either side.
+TEST(Map, AnEqualCutKeepsTheOldNormal) {
+  Map map(Grid{});
+  const Stencil square{.x = 8, .y = 8, .radius = 2, .shape = Shape::square, .fill = Fill::filled};
+  const Stencil circle{.x = 8, .y = 8, .radius = 2.5, .shape = Shape::circle, .fill = Fill::filled};
+  map.apply(0, {&square, 1});
+  const Crossing before = edges(map, Axis::x).at({9, 9});
+  EXPECT_EQ(before, (Crossing{16384, {32767, 0}}));
+  map.apply(0, {&circle, 1});
+  EXPECT_EQ(edges(map, Axis::x).at({9, 9}), before);
+  EXPECT_EQ(edges(map, Axis::x).at({9, 8}).offset, 31113);  // sqrt(6) - 1.5 of an edge: further out
+}
+
 TEST(Map, LayersDoNotMeet) {
   Map map(Grid{.layers = 2, .bounds = {}});
   map.apply(1, {&kDisc, 1});
