@@ -51,14 +51,13 @@ class Decoder {
     const std::size_t vertices = in_.varint(), triangles = in_.varint(), sections = in_.varint();
     if (vertices > kMaxVertices)
       return refuse("vertices", "are beyond the limit of " + std::to_string(kMaxVertices));
-    const std::size_t index_bytes = vertices <= kByteIndexVertices ? 1 : 2;
     // What the counts need at least, before memory is taken for them. No sum overflows 64 bits.
     const std::uint64_t least =
-        std::uint64_t{vertices} * 2 + std::uint64_t{triangles} * 3 * index_bytes + sections;
+        std::uint64_t{vertices} * 2 + std::uint64_t{triangles} * 3 + sections;
     if (in_.failed() || least > in_.remaining())
       return refuse("counts", "ask for more than the record holds");
     read_coordinates(vertices);
-    if (good()) read_triangles(triangles, index_bytes);
+    if (good()) read_triangles(triangles);
     if (good()) read_sections(sections);
   }
 
@@ -78,13 +77,16 @@ class Decoder {
     }
   }
 
-  void read_triangles(std::size_t count, std::size_t index_bytes) {
-    const std::size_t vertices = record_.mesh.vertices.size();
+  void read_triangles(std::size_t count) {
+    const auto vertices = static_cast<std::int64_t>(record_.mesh.vertices.size());
     auto& indices = record_.mesh.triangles;
     indices.resize(count * 3);
+    std::int64_t value = 0;
     for (std::uint16_t& index : indices) {
-      index = index_bytes == 1 ? in_.u8() : in_.u16();
-      if (index >= vertices) return refuse("triangles", "an index is beyond the vertices");
+      value += unzigzag(in_.varint());
+      if (value < 0 || value >= vertices)
+        return refuse("triangles", "an index is beyond the vertices");
+      index = static_cast<std::uint16_t>(value);
     }
     for (std::size_t i = 0; i < indices.size(); i += 3)
       if (indices[i] == indices[i + 1] || indices[i + 1] == indices[i + 2] ||

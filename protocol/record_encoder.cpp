@@ -11,10 +11,11 @@ namespace {
 
 /// No mesh of these counts takes more.
 std::size_t most_bytes(const ChunkMesh& mesh) {
-  constexpr std::size_t kCoordinate = 4;                     // a varint of 23 bits
-  constexpr std::size_t kChain = 6, kStep = 3, kNormal = 4;  // varints of 16, 16 and 19 bits
+  constexpr std::size_t kCoordinate = kMaxVarintBytes;
+  constexpr std::size_t kIndex = 3, kChain = 6, kStep = 3;  // varints of 17, twice 16, 19 bits
+  constexpr std::size_t kNormal = 4;
   return kRecordLengthBytes + kRecordHeadBytes + 3 * kMaxVarintBytes +
-         mesh.vertices.size() * 2 * kCoordinate + mesh.triangles.size() * sizeof(std::uint16_t) +
+         mesh.vertices.size() * 2 * kCoordinate + mesh.triangles.size() * kIndex +
          mesh.sections.size() * (kChain + kStep + 2 * kNormal);
 }
 
@@ -33,11 +34,14 @@ void write_vertices(const std::vector<MeshPoint>& vertices, ByteWriter& out) {
   }
 }
 
-void write_triangles(const ChunkMesh& mesh, ByteWriter& out) {
-  if (mesh.vertices.size() <= kByteIndexVertices)
-    for (const std::uint16_t index : mesh.triangles) out.u8(index);
-  else
-    for (const std::uint16_t index : mesh.triangles) out.u16(index);
+/// Steps from index to index: an outline's vertices are numbered along it, so most are one byte,
+/// and half of what indices of a fixed width take in a chunk of more than 256 vertices.
+void write_triangles(const std::vector<std::uint16_t>& triangles, ByteWriter& out) {
+  std::int32_t before = 0;
+  for (const std::uint16_t index : triangles) {
+    out.varint(zigzag(index - before));
+    before = index;
+  }
 }
 
 void write_normal(MeshNormal normal, ByteWriter& out) {
@@ -101,7 +105,7 @@ void encode_record(const ChunkRecord& record, std::string& out) {
     body.varint(static_cast<std::uint32_t>(mesh.triangles.size() / 3));
     body.varint(static_cast<std::uint32_t>(mesh.sections.size()));
     write_vertices(mesh.vertices, body);
-    write_triangles(mesh, body);
+    write_triangles(mesh.triangles, body);
     write_sections(mesh.sections, body);
   }
   const auto end = static_cast<std::size_t>(body.at() - out.data());

@@ -10,8 +10,6 @@ inline constexpr std::uint8_t kRecordFull = 1, kRecordRemoved = 2;  ///< First b
 inline constexpr std::size_t kRecordLengthBytes = 4;
 /// u8 kind, u8 layer, i32 x, y, z, u64 revision.
 inline constexpr std::size_t kRecordHeadBytes = 22;
-/// Up to so many vertices a triangle index takes one byte, beyond them two.
-inline constexpr std::size_t kByteIndexVertices = 256;
 
 /// Lowest bits of a section's varint, below the zigzag step from its start to its end vertex.
 inline constexpr int kSectionFlagBits = 2;

@@ -57,7 +57,7 @@ TEST(Frame, KnowsWhetherAGroupIsOpen) {
 }
 
 TEST(Frame, CarriesALargeRecordAcrossMessages) {
-  const ChunkRecord large = record_of(band_mesh(2000));
+  const ChunkRecord large = record_of(band_mesh(2100));
   const auto messages = packed({large, removed_record()});
   ASSERT_EQ(messages.size(), 3u);
   EXPECT_EQ(messages[0].size(), 16384u);
@@ -115,7 +115,7 @@ TEST(Frame, BoundsAMessage) {
   EXPECT_EQ(fed({encode(GroupBegin{}) + "x"}), "bad_frame: group begin: is not 22 bytes long");
   EXPECT_EQ(fed({encode(GroupBegin{}), encode(GroupEnd{}).substr(0, 9)}),
             "bad_frame: group end: is not 10 bytes long");
-  const std::string large = encoded(record_of(band_mesh(2000)));
+  const std::string large = encoded(record_of(band_mesh(2100)));
   EXPECT_EQ(fed({piece(large.substr(0, 16382))}), "good");
   EXPECT_EQ(fed({piece(large.substr(0, 16383))}),
             "bad_frame: message: 16385 bytes are beyond the limit of 16384");
