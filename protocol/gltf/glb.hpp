@@ -18,7 +18,7 @@ inline constexpr int kExporterVersion = 1;
 using MeshMap = std::map<ChunkKey, const ChunkMesh*>;
 
 /// The file's bytes, equal for equal arguments. Fails with too_large past 4 GiB, and with
-/// internal when the writer does. Holds at most one copy of the mesh beside the result.
+/// internal when the writer does. Beside the result it holds the JSON part, no copy of the meshes.
 [[nodiscard]] Result<std::string> write_glb(const MapSettings& settings, const MeshMap& meshes);
 
 }  // namespace earthwork::protocol
