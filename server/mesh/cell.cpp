@@ -44,6 +44,7 @@ constexpr std::array<Case, 16> kCases{{
 Hit hit(Side side, const CellHits& hits) { return {place(side, hits[side]), hits[side].normal}; }
 
 std::optional<CellPoint> meeting(Side a, Side b, const CellHits& hits, std::int64_t limit) {
+  if (!sharp(hits[a].normal, hits[b].normal, limit)) return std::nullopt;
   return feature_point(hit(a, hits), hit(b, hits), limit);
 }
 

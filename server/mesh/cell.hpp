@@ -26,10 +26,10 @@ struct Piece {
 };
 
 struct CellContour {
-  int count = 0;  ///< Of pieces: none in cases 0 and 15, two in cases 6 and 9.
-  std::array<Piece, 2> pieces{};
-  bool connected = false;    ///< The two corners of case 6 or 9 are joined.
-  int clamped_features = 0;  ///< Corners' features that lay strictly beyond a far side.
+  int count = 0;                ///< Of pieces: none in cases 0 and 15, two in cases 6 and 9.
+  std::array<Piece, 2> pieces;  ///< Only the first `count` mean something.
+  bool connected = false;       ///< The two corners of case 6 or 9 are joined.
+  int clamped_features = 0;     ///< Corners' features that lay strictly beyond a far side.
 };
 
 /// Where the crossing on `side` lies.

@@ -8,7 +8,11 @@ std::uint64_t row_of(const voxel::Chunk* chunk, int y) { return chunk ? chunk->r
 std::uint64_t first_bit(const voxel::Chunk* chunk, int y) { return row_of(chunk, y) & 1; }
 
 void append(std::vector<voxel::Crossing>& to, std::span<const voxel::Crossing> from) {
-  to.insert(to.end(), from.begin(), from.end());
+  if (from.size() <= 4) {
+    for (const voxel::Crossing& crossing : from) to.push_back(crossing);
+  } else {
+    to.insert(to.end(), from.begin(), from.end());
+  }
 }
 
 }  // namespace
@@ -38,36 +42,41 @@ void ChunkCells::read_rows(const voxel::Neighbourhood& chunks, int resolution) {
   }
 }
 
-// At the border a row's edges beyond the last voxel have no crossing stored, so that what is stored
-// is what the cells want.
+// A chunk's own crossings lie in row order already and are copied as a whole. At the border there
+// are none on edges beyond the last voxel, so that what is stored is what the cells want.
 void ChunkCells::read_crossings(const voxel::Neighbourhood& chunks, int resolution) {
   x_.clear(), y_.clear();
+  if (chunks.own) append(x_, chunks.own->crossings(voxel::Axis::x));
+  int start = 0;
   for (int y = 0; y <= height_; ++y) {
-    x_start_[static_cast<std::size_t>(y)] = static_cast<int>(x_.size());
-    const voxel::Chunk* chunk = y < resolution ? chunks.own : chunks.upper;
-    if (chunk) append(x_, chunk->crossings(voxel::Axis::x, y < resolution ? y : 0));
+    x_start_[static_cast<std::size_t>(y)] = start;
+    start += y < resolution && chunks.own ? chunks.own->crossing_count(voxel::Axis::x, y) : 0;
   }
+  if (height_ == resolution && chunks.upper) {
+    append(x_, chunks.upper->crossings(voxel::Axis::x, 0));
+    start = static_cast<int>(x_.size());
+  }
+  x_start_[static_cast<std::size_t>(height_) + 1] = start;
+  read_y_crossings(chunks);
+  // `hits` reads an index past a row where the side has no crossing.
+  x_.push_back({}), y_.push_back({});
+}
+
+void ChunkCells::read_y_crossings(const voxel::Neighbourhood& chunks) {
   for (int y = 0; y < height_; ++y) {
     y_start_[static_cast<std::size_t>(y)] = static_cast<int>(y_.size());
     if (chunks.own) append(y_, chunks.own->crossings(voxel::Axis::y, y));
     if (chunks.right && (chunks.right->mask(voxel::Axis::y, y) & 1) != 0) {
-      append(y_, chunks.right->crossings(voxel::Axis::y, y).first(1));
+      y_.push_back(chunks.right->crossings(voxel::Axis::y, y).front());
     }
   }
-  x_start_[static_cast<std::size_t>(height_) + 1] = static_cast<int>(x_.size());
   y_start_[static_cast<std::size_t>(height_)] = static_cast<int>(y_.size());
 }
 
 CellHits ChunkCells::hits(const MixedCell& cell) const {
-  const voxel::Crossing *bottom = x_row(cell.y), *top = x_row(cell.y + 1), *sides = y_row(cell.y);
-  const unsigned c = cell.cell_case;
-  const bool a = (c & 1) != 0, b = (c & 2) != 0, cc = (c & 4) != 0, d = (c & 8) != 0;
-  CellHits hits{};
-  if (a != b) hits[kBottom] = bottom[cell.index[kBottom]];
-  if (b != d) hits[kRight] = sides[cell.index[kRight]];
-  if (cc != d) hits[kTop] = top[cell.index[kTop]];
-  if (a != cc) hits[kLeft] = sides[cell.index[kLeft]];
-  return hits;
+  const voxel::Crossing* sides = y_row(cell.y);
+  return {{x_row(cell.y)[cell.index[kBottom]], sides[cell.index[kRight]],
+           x_row(cell.y + 1)[cell.index[kTop]], sides[cell.index[kLeft]]}};
 }
 
 }  // namespace earthwork::mesh

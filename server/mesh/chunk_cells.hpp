@@ -65,12 +65,13 @@ class ChunkCells {
   }
   int x_start(int y) const { return x_start_[static_cast<std::size_t>(y)]; }
   int y_start(int y) const { return y_start_[static_cast<std::size_t>(y)]; }
-  int x_count() const { return static_cast<int>(x_.size()); }
-  int y_count() const { return static_cast<int>(y_.size()); }
+  int x_count() const { return x_start_[static_cast<std::size_t>(height_) + 1]; }
+  int y_count() const { return y_start_[static_cast<std::size_t>(height_)]; }
 
   /// Calls visit(const MixedCell&) for the mixed cells of row y, left to right.
   template <class Visit>
   void walk_row(int y, Visit&& visit) const;
+  /// The crossings on the cell's sides; on a side without one, any.
   CellHits hits(const MixedCell& cell) const;
 
  private:
@@ -81,6 +82,7 @@ class ChunkCells {
   };
   void read_rows(const voxel::Neighbourhood& chunks, int resolution);
   void read_crossings(const voxel::Neighbourhood& chunks, int resolution);
+  void read_y_crossings(const voxel::Neighbourhood& chunks);
 
   static constexpr std::size_t kRows = voxel::kMaxResolution + 1;
   int width_ = 0, height_ = 0;

@@ -22,7 +22,7 @@ void ContourGraph::build(const ChunkCells& cells, std::int64_t limit) {
   const auto count = static_cast<std::size_t>(cells.x_count() + cells.y_count());
   points.resize(count), normals.resize(count);
   to.assign(count, kNone), feature.assign(count, kNone);
-  entered.assign(count, 0), fixed.assign(count, 0);
+  fixed.assign(count, 0);
   order.clear(), ears.clear();
   place_crossings(cells);
   place_corners(cells);
@@ -87,7 +87,6 @@ void ContourGraph::add_cell(const ChunkCells& cells, const MixedCell& cell, std:
     const Piece& piece = pieces.pieces[static_cast<std::size_t>(k)];
     const std::uint16_t from = id(piece.from), target = id(piece.to);
     to[from] = target;
-    entered[target] = 1;
     if (!piece.feature) continue;
     const Point corner = voxel_point(cell.x, cell.y);
     const std::uint16_t tip = add_point({corner.x + static_cast<std::int32_t>(piece.feature->x),
@@ -127,7 +126,7 @@ void ContourGraph::order_band(const ChunkCells& cells, int y, std::size_t first_
     add(base + static_cast<std::size_t>(k));
   }
   for (std::size_t id = first_feature; id < points.size(); ++id) add(id);
-  std::sort(keys_.begin(), keys_.end());
+  if (keys_.size() > 1) std::sort(keys_.begin(), keys_.end());
   for (const std::uint64_t key : keys_) order.push_back(static_cast<std::uint16_t>(key));
 }
 

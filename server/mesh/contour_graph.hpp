@@ -24,7 +24,6 @@ struct ContourGraph {
   std::vector<voxel::Normal> normals;  ///< Of crossings only.
   std::vector<std::uint16_t> to;       ///< The crossing a crossing's piece leads to, or kNone.
   std::vector<std::uint16_t> feature;  ///< The feature in between, or kNone.
-  std::vector<std::uint8_t> entered;   ///< A piece leads to the crossing.
   std::vector<std::uint8_t> fixed;     ///< Must stay a vertex, however straight the contour.
   std::vector<std::uint16_t> order;    ///< All points by y and then x.
   std::vector<Ear> ears;

@@ -69,7 +69,7 @@ void Mesher::mesh(const voxel::Neighbourhood& chunks, int resolution, ChunkMesh&
 
 void Mesher::Scratch::mesh_mixed(ChunkMesh& out) {
   graph.build(cells, limit);
-  tracer.trace(graph, out.sections);
+  tracer.trace(cells, graph, out.sections);
   link_outline(cells, graph, out.sections, next);
   number_points(out.vertices);
   for (Section& section : out.sections)

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "server/mesh/rim.hpp"
+
 namespace earthwork::mesh {
 
 // The root of a sum of squares below 2^53 and one division: the same on every build.
@@ -16,16 +18,19 @@ voxel::Normal repaired(voxel::Normal normal, Point a, Point b) {
   return {component(x), component(y)};
 }
 
-void WallTracer::trace(const ContourGraph& graph, std::vector<Section>& sections) {
+void WallTracer::trace(const ChunkCells& cells, const ContourGraph& graph,
+                       std::vector<Section>& sections) {
   sections.clear();
   sections_ = &sections;
   done_.assign(graph.to.size(), 0);
   dropped_.assign(graph.points.size(), 0);
-  for (const bool closed : {false, true}) {
-    for (const std::uint16_t point : graph.order) {
-      const bool starts = point < graph.to.size() && graph.to[point] != kNone && !done_[point];
-      if (starts && (closed || !graph.entered[point])) trace_from(graph, point);
-    }
+  walk_rim(
+      cells, [](int) {},
+      [&](std::uint16_t point) {
+        if (graph.to[point] != kNone) trace_from(graph, point);
+      });
+  for (const std::uint16_t point : graph.order) {
+    if (point < done_.size() && !done_[point] && graph.to[point] != kNone) trace_from(graph, point);
   }
 }
 

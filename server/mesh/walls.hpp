@@ -8,13 +8,14 @@
 
 namespace earthwork::mesh {
 
-/// Traces the contours of a chunk. Contours that leave the chunk come first, closed ones then; each
-/// kind in the order of their first points, by y and then x.
+/// Traces the contours of a chunk. Those that enter it over the rim come first, in the order of
+/// their first points around it, counter-clockwise from the lower left; then the closed ones, in
+/// the order of their lowest crossing (by y, then x).
 class WallTracer {
  public:
   /// Replaces `sections`, whose ends are points of `graph`. Two sections on one line whose four
   /// normals are equal are joined; the point between them is set in dropped().
-  void trace(const ContourGraph& graph, std::vector<Section>& sections);
+  void trace(const ChunkCells& cells, const ContourGraph& graph, std::vector<Section>& sections);
   /// A flag for each point of the graph: no section ends there any more.
   const std::vector<std::uint8_t>& dropped() const { return dropped_; }
 

@@ -44,6 +44,11 @@ std::span<const Crossing> Chunk::crossings(Axis axis, int y) const {
   return {body_->packed[static_cast<int>(axis)].data() + first, last - first};
 }
 
+std::span<const Crossing> Chunk::crossings(Axis axis) const {
+  if (!body_) return {};
+  return body_->packed[static_cast<int>(axis)];
+}
+
 int Chunk::filled_voxels() const {
   if (!body_) return full_ ? resolution_ * resolution_ : 0;
   int count = 0;

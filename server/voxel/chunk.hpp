@@ -54,6 +54,13 @@ class Chunk {
   }
   /// The crossings of row `y`, left to right. Valid until the chunk changes.
   std::span<const Crossing> crossings(Axis axis, int y) const;
+  /// All crossings along `axis`, row by row.
+  std::span<const Crossing> crossings(Axis axis) const;
+  int crossing_count(Axis axis, int y) const {
+    if (!body_) return 0;
+    const std::uint16_t* start = body_->starts.data() + start_offset(axis) + at(y);
+    return start[1] - start[0];
+  }
   /// A word with a bit for each voxel of a row.
   std::uint64_t full_row() const { return ~std::uint64_t{0} >> (kMaxResolution - resolution_); }
 

@@ -16,7 +16,7 @@ class OutlineMaker {
  public:
   Outline make(const mesh::ChunkCells& cells) {
     graph_.build(cells, mesh::sharpness_limit(kFeatureAngle));
-    tracer_.trace(graph_, sections_);
+    tracer_.trace(cells, graph_, sections_);
     mesh::link_outline(cells, graph_, sections_, next_);
     Outline outline;
     number_.resize(graph_.points.size());
