@@ -1,0 +1,22 @@
+/// The subcommand `serve`: from its flags to a server that runs until it is told to end.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace earthwork::app {
+
+struct ServeFlags {
+  std::string data = "earthwork-data";
+  std::string listen = "127.0.0.1:8080";
+  std::vector<std::string> allow_hosts;
+  bool memory = false;
+  bool insecure_open = false;
+  bool demo = false;
+};
+
+/// Serves until SIGTERM or SIGINT. Gives back the exit code: 0, or 2 for flags that do not do,
+/// with a line on stderr.
+int serve(const ServeFlags& flags);
+
+}  // namespace earthwork::app

@@ -1,0 +1,46 @@
+#include "server/net/access.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace earthwork::net {
+namespace {
+
+using protocol::Code;
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+}  // namespace
+
+Access::Access(const ListenAddress& listen, const std::vector<std::string>& extra) {
+  for (const std::string& host :
+       {listen.host, std::string("localhost"), std::string("127.0.0.1"), std::string("::1")}) {
+    const ListenAddress address{host, listen.port};
+    hosts_.push_back(lower(address.text()));
+    // Browsers leave out the port that http has anyway.
+    if (listen.port == 80) hosts_.push_back(lower(address.host_text()));
+  }
+  for (const std::string& host : extra) hosts_.push_back(lower(host));
+}
+
+bool Access::allowed(std::string_view host) const {
+  return std::find(hosts_.begin(), hosts_.end(), lower(host)) != hosts_.end();
+}
+
+protocol::Result<void> Access::check(const std::optional<std::string>& host,
+                                     const std::optional<std::string>& origin) const {
+  if (!host || !allowed(*host))
+    return protocol::fail(Code::bad_field, "Host: not a name of this server", "Host");
+  constexpr std::string_view kScheme = "http://";
+  if (origin && (!origin->starts_with(kScheme) || !allowed(origin->substr(kScheme.size()))))
+    return protocol::fail(Code::bad_field, "Origin: another site may not use this server",
+                          "Origin");
+  return {};
+}
+
+}  // namespace earthwork::net

@@ -1,0 +1,181 @@
+#include "server/net/api.hpp"
+
+#include <charconv>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "protocol/json_fields.hpp"
+#include "protocol/json_text.hpp"
+#include "server/net/front_page.hpp"
+#include "server/net/map_resource.hpp"
+
+namespace earthwork::net {
+namespace {
+
+using nlohmann::ordered_json;
+using protocol::Code;
+
+HttpResponse not_found(const std::string& target) {
+  return problem(404, {Code::unknown_map, "there is no " + target.substr(0, 200), {}});
+}
+
+/// Whether the method is one of `allowed`; answers 405 when not. HEAD goes wherever GET does.
+bool check_method(const HttpRequest& request, std::initializer_list<const char*> allowed,
+                  const Respond& respond) {
+  std::string list;
+  for (const char* method : allowed) {
+    if (request.method == method) return true;
+    list += (list.empty() ? "" : ", ") + std::string(method);
+    if (std::string_view(method) != "GET") continue;
+    if (request.method == "HEAD") return true;
+    list += ", HEAD";
+  }
+  HttpResponse response = problem(405, {Code::not_supported, "use one of " + list, {}});
+  response.headers.emplace_back("Allow", list);
+  respond(std::move(response));
+  return false;
+}
+
+/// A page of another site can send a form here, but not JSON: so what writes has to be JSON.
+bool is_json(const std::optional<std::string>& content_type) {
+  if (!content_type) return false;
+  std::string_view type = *content_type;
+  type = type.substr(0, type.find(';'));
+  type = type.substr(0, type.find_last_not_of(" \t") + 1);
+  return type == "application/json";
+}
+
+HttpResponse not_json() {
+  return problem(415,
+                 {Code::bad_field, "Content-Type: application/json is needed", "Content-Type"});
+}
+
+/// A number from the query, `missing` without one; nothing when it is no number.
+std::optional<std::uint64_t> number(const Target& target, std::string_view key,
+                                    std::uint64_t missing) {
+  const auto text = target.asked(key);
+  if (!text) return missing;
+  std::uint64_t value = 0;
+  const char* end = text->data() + text->size();
+  const auto [last, error] = std::from_chars(text->data(), end, value);
+  if (error != std::errc{} || last != end) return std::nullopt;
+  return value;
+}
+
+HttpResponse no_number(const char* key) {
+  return problem({Code::bad_field, std::string(key) + ": a whole number is needed", key});
+}
+
+struct NewMap {
+  std::string name;
+  protocol::MapSettings settings;
+};
+
+protocol::Result<NewMap> read_new_map(std::string_view body) {
+  const auto json = protocol::parse_json(body, kMaxBodyBytes);
+  if (!json) return tl::unexpected<protocol::Failure>(json.error());
+  protocol::JsonFields in(*json);
+  NewMap wanted{.name = in.map_name("name"), .settings = {}};
+  if (in.has("settings")) {
+    if (const nlohmann::json* object = in.value("settings")) {
+      auto settings = protocol::read_settings(*object);
+      if (!settings) return tl::unexpected<protocol::Failure>(std::move(settings.error()));
+      wanted.settings = std::move(*settings);
+    }
+  }
+  return in.result(std::move(wanted));
+}
+
+}  // namespace
+
+Api::Api(room::Atlas& atlas, Workers& workers, Access access)
+    : atlas_(atlas), workers_(workers), access_(std::move(access)) {}
+
+protocol::Result<void> Api::check_access(const HttpRequest& request) const {
+  return access_.check(request.host, request.origin);
+}
+
+void Api::handle(HttpRequest request, Respond respond) const {
+  if (auto checked = check_access(request); !checked) return respond(problem(403, checked.error()));
+  const auto target = parse_target(request.target);
+  if (!target) return respond(not_found(request.target));
+
+  const auto& path = target->segments;
+  if (path.empty() || path == std::vector<std::string>{"healthz"}) {
+    if (!check_method(request, {"GET"}, respond)) return;
+    return respond(path.empty() ? front_page() : text_response("ok\n"));
+  }
+  if (path == std::vector<std::string>{"ws"}) {
+    if (!check_method(request, {"GET"}, respond)) return;
+    HttpResponse response =
+        problem(426, {Code::bad_version, "this is where WebSockets are opened", {}});
+    response.headers.emplace_back("Upgrade", "websocket");
+    return respond(std::move(response));
+  }
+  if (path.size() >= 2 && path[0] == "api" && path[1] == "maps") {
+    if (path.size() == 2) return handle_maps(request, std::move(respond));
+    if (path.size() <= 4) return handle_map(request, *target, std::move(respond));
+  }
+  respond(not_found(request.target));
+}
+
+void Api::handle_maps(const HttpRequest& request, Respond respond) const {
+  if (!check_method(request, {"GET", "POST"}, respond)) return;
+  if (request.method == "POST") return create_map(request, std::move(respond));
+  list_maps(respond);
+}
+
+void Api::list_maps(const Respond& respond) const {
+  ordered_json maps = ordered_json::array();
+  for (const auto& room : atlas_.list())
+    maps.push_back({{"name", room->name()}, {"epoch", protocol::hex(room->epoch())}});
+  respond(json_response(200, {{"maps", std::move(maps)}}));
+}
+
+void Api::create_map(const HttpRequest& request, Respond respond) const {
+  if (!is_json(request.content_type)) return respond(not_json());
+  const auto wanted = read_new_map(request.body);
+  if (!wanted) return respond(problem(wanted.error()));
+  const auto room = atlas_.create(wanted->name, wanted->settings);
+  if (!room) {
+    const bool full = room.error().code == Code::too_large;
+    return respond(full ? problem(507, room.error()) : problem(room.error()));
+  }
+  describe_map(*room, 201, std::move(respond));
+}
+
+void Api::handle_map(const HttpRequest& request, const Target& target, Respond respond) const {
+  const std::string& name = target.segments[2];
+  const std::string part = target.segments.size() == 4 ? target.segments[3] : "";
+  const auto room = atlas_.find(name);
+  const bool known =
+      part.empty() || part == "figures" || part == "states.png" || part == "export.glb";
+  if (!room || !known) return respond(not_found(request.target));
+
+  if (part.empty()) {
+    if (!check_method(request, {"GET", "DELETE"}, respond)) return;
+    if (request.method != "DELETE") return describe_map(room, 200, std::move(respond));
+    // A page of another site cannot send a DELETE unasked, with a body or without.
+    if (!request.body.empty() && !is_json(request.content_type)) return respond(not_json());
+    if (!atlas_.erase(name)) return respond(not_found(request.target));
+    return respond({.status = 204, .content_type = {}, .headers = {}, .body = {}});
+  }
+
+  if (!check_method(request, {"GET"}, respond)) return;
+  if (part == "figures") return give_figures(room, std::move(respond));
+  if (part == "states.png") {
+    const auto layer = number(target, "layer", 0);
+    if (!layer) return respond(no_number("layer"));
+    return give_states(room, *layer, workers_, std::move(respond));
+  }
+  ExportQuestion question{.seq = {}, .if_none_match = request.if_none_match};
+  if (target.asked("seq")) {
+    question.seq = number(target, "seq", 0);
+    if (!question.seq) return respond(no_number("seq"));
+  }
+  give_export(room, std::move(question), workers_, std::move(respond));
+}
+
+}  // namespace earthwork::net

@@ -1,0 +1,201 @@
+#include "server/net/conversation.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "server/net/identity.hpp"
+#include "server/room/entropy.hpp"
+
+namespace earthwork::net {
+
+using protocol::Code;
+using protocol::Failure;
+using protocol::MessageId;
+
+Conversation::Conversation(room::Atlas& atlas, std::unique_ptr<room::Strand> own,
+                           std::function<void()> wake)
+    : atlas_(atlas), own_(std::move(own)), wake_(std::move(wake)) {}
+
+void Conversation::receive(std::string_view text) {
+  if (ending_) return;
+  auto message = protocol::parse_client_message(text);
+  if (!message) return reject(protocol::salvage_id(text), std::move(message.error()));
+  if (!greeted() && !std::holds_alternative<protocol::Hello>(*message)) {
+    const auto id = std::visit([](auto& m) { return std::optional<MessageId>(m.id); }, *message);
+    return reject(id, {Code::bad_state, "say hello first", "type"});
+  }
+  std::visit([this](auto& m) { handle(m); }, *message);
+}
+
+void Conversation::refuse_binary() {
+  reject({}, {Code::bad_message, "a client's messages are text; this one was binary", {}});
+}
+
+bool Conversation::may_read() const {
+  const bool between = place_ == Place::entering || place_ == Place::leaving;
+  // What a room that was left had already sent must be through before the next one sends.
+  const bool stranded = place_ == Place::outside && outbox_.has_parcel();
+  return !between && !stranded && unanswered_ < kMaxUnanswered &&
+         outbox_.control_bytes() < kMaxControlWaiting;
+}
+
+void Conversation::handle(protocol::Hello& hello) {
+  if (greeted()) return reject(hello.id, {Code::bad_state, "hello was said already", "type"});
+  constexpr int kVersion = protocol::Hello::kMaxProtocol;
+  if (hello.protocol_min > kVersion || hello.protocol_max < protocol::Hello::kMinProtocol) {
+    return say_bye({Code::bad_version,
+                    "protocol: this server speaks " + std::to_string(kVersion) + " only",
+                    "protocol"});
+  }
+  user_.session = protocol::hex(room::random_u64());
+  user_.name = std::move(hello.name);
+  user_.color = hello.color ? *hello.color : color_for(user_.session);
+  const std::string key = hello.key ? *hello.key : room::random_key();
+  author_ = author_of(key);
+  say(protocol::Welcome{
+      .session = user_.session, .key = key, .protocol = kVersion, .id = hello.id});
+}
+
+void Conversation::handle(protocol::Join& join) {
+  if (place_ == Place::inside)
+    return reject(join.id, {Code::bad_state, "leave " + room_->name() + " first", "type"});
+  if (join.seq) return refuse_unsupported(join.id, "join with seq");
+  auto room = atlas_.find(join.map);
+  if (!room) return reject(join.id, {Code::unknown_map, "map: there is no " + join.map, "map"});
+
+  place_ = Place::entering;
+  room->strand().post([self = shared_from_this(), room, user = user_, id = join.id] {
+    auto entrance = room->join(self, user);
+    self->own_->post(
+        [self, room, entrance = std::move(entrance), id] { self->entered(room, entrance, id); });
+  });
+}
+
+void Conversation::entered(const std::shared_ptr<room::Room>& room,
+                           protocol::Result<room::Room::Entrance> entrance,
+                           std::optional<MessageId> id) {
+  if (!entrance) {
+    place_ = Place::outside;
+    return reject(id, std::move(entrance.error()));
+  }
+  place_ = Place::inside;
+  room_ = room;
+  viewer_ = entrance->viewer;
+  if (abandoned_) return abandon();
+  entrance->joined.id = id;
+  say(entrance->joined);
+}
+
+void Conversation::handle(const protocol::Leave& leave) {
+  if (place_ != Place::inside)
+    return reject(leave.id, {Code::bad_state, "no map was joined", "type"});
+  place_ = Place::leaving;
+  in_room([self = shared_from_this(), id = leave.id](room::Room& room, room::ViewerId viewer) {
+    room.leave(viewer);
+    // All that the room had told before is on the strand already, ahead of this.
+    self->own_->post([self, id] {
+      self->place_ = Place::outside;
+      self->room_.reset();
+      self->done(id);
+    });
+  });
+}
+
+void Conversation::handle(protocol::View& view) {
+  if (place_ != Place::inside)
+    return reject(view.id, {Code::bad_state, "join a map first", "type"});
+  ++unanswered_;
+  in_room([self = shared_from_this(), view](room::Room& room, room::ViewerId viewer) {
+    self->own_->post([self, id = view.id, result = room.look(viewer, view)] {
+      self->answered(id, result);
+      if (result) self->done(id);
+    });
+  });
+}
+
+void Conversation::handle(protocol::EditMessage& edit) {
+  if (place_ != Place::inside)
+    return reject(edit.id, {Code::bad_state, "join a map first", "type"});
+  ++unanswered_;
+  room::Room::Command command{.id = edit.id, .author = author_, .edit = std::move(edit.edit)};
+  in_room([self = shared_from_this(), command](room::Room& room, room::ViewerId viewer) mutable {
+    const MessageId id = command.id;
+    auto result = room.submit(viewer, std::move(command));
+    if (!result) self->own_->post([self, id, result] { self->answered(id, result); });
+  });
+}
+
+void Conversation::answered(std::optional<MessageId> id, const protocol::Result<void>& result) {
+  --unanswered_;
+  if (!result) reject(id, result.error());
+  wake_();
+}
+
+void Conversation::handle(const protocol::Ping& ping) { done(ping.id); }
+
+void Conversation::in_room(std::function<void(room::Room&, room::ViewerId)> task) {
+  room_->strand().post(
+      [room = room_, viewer = viewer_, run = std::move(task)] { run(*room, viewer); });
+}
+
+void Conversation::sent(const OutgoingMessage& message) {
+  if (message.ends_parcel && place_ == Place::inside)
+    in_room([](room::Room& room, room::ViewerId viewer) { room.ready(viewer); });
+}
+
+void Conversation::say(const protocol::ServerMessage& message) {
+  outbox_.say(message);
+  wake_();
+}
+
+void Conversation::done(std::optional<MessageId> id) {
+  if (id)
+    say(protocol::Done{*id});
+  else
+    wake_();
+}
+
+void Conversation::reject(std::optional<MessageId> id, Failure why) {
+  say(protocol::Rejected{.id = id, .failure = std::move(why)});
+}
+
+void Conversation::refuse_unsupported(std::optional<MessageId> id, const char* what) {
+  reject(id, {Code::not_supported, std::string(what) + " is not offered by this server", "type"});
+}
+
+void Conversation::say_bye(Failure why) {
+  if (ending_) return;
+  ending_ = true;
+  outbox_.end({.failure = std::move(why), .retry_after_ms = {}});
+  wake_();
+}
+
+void Conversation::abandon() {
+  abandoned_ = true;
+  wake_ = [] {};
+  if (place_ != Place::inside) return;  // a join under way leaves once it is answered
+  place_ = Place::leaving;
+  in_room([](room::Room& room, room::ViewerId viewer) { room.leave(viewer); });
+  room_.reset();
+}
+
+void Conversation::applied(std::vector<protocol::Applied> replies) {
+  own_->post([self = shared_from_this(), told = std::move(replies)] {
+    self->unanswered_ -= static_cast<int>(told.size());
+    for (const protocol::Applied& reply : told) self->outbox_.say(reply);
+    self->wake_();
+  });
+}
+
+void Conversation::deliver(room::Parcel parcel) {
+  own_->post([self = shared_from_this(), parcel = std::move(parcel)]() mutable {
+    self->outbox_.put(std::move(parcel));
+    self->wake_();
+  });
+}
+
+void Conversation::end(protocol::Bye bye) {
+  own_->post([self = shared_from_this(), why = std::move(bye.failure)] { self->say_bye(why); });
+}
+
+}  // namespace earthwork::net

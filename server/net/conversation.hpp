@@ -1,0 +1,94 @@
+/// What is said in one session: client messages in, replies and parcels out. It knows the
+/// protocol's states, and no socket.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/net/outbox.hpp"
+#include "server/room/atlas.hpp"
+#include "server/room/room.hpp"
+#include "server/room/strand.hpp"
+#include "server/room/viewer.hpp"
+
+namespace earthwork::net {
+
+/// Edits and views that may be unanswered at a time. More are not refused, they are not read.
+inline constexpr int kMaxUnanswered = 64;
+/// Beyond this much unread control nothing is read either.
+inline constexpr std::size_t kMaxControlWaiting = 64 * 1024;
+
+/// All on the session's strand, except what it has of Viewer: rooms call that on theirs.
+class Conversation final : public room::Viewer, public std::enable_shared_from_this<Conversation> {
+ public:
+  /// `own` is the session's strand. `wake` is called there when there may be something to write,
+  /// or to read again. The atlas must outlive the conversation.
+  Conversation(room::Atlas& atlas, std::unique_ptr<room::Strand> own, std::function<void()> wake);
+
+  /// A text message from the client.
+  void receive(std::string_view text);
+  /// A binary message, of which there are none from clients.
+  void refuse_binary();
+  /// The next message is to be read now. While a join or a leave is under way it is not.
+  [[nodiscard]] bool may_read() const;
+  [[nodiscard]] bool greeted() const { return !user_.session.empty(); }
+
+  [[nodiscard]] std::optional<OutgoingMessage> next_message() { return outbox_.next(); }
+  /// A message from `next_message` was written.
+  void sent(const OutgoingMessage& message);
+
+  /// Says why, and ends.
+  void say_bye(protocol::Failure why);
+  /// Nothing more will be said.
+  [[nodiscard]] bool ended() const { return outbox_.ended(); }
+  /// Bye was said, or is about to be.
+  [[nodiscard]] bool ending() const { return ending_; }
+  /// The socket is gone: leaves the room. `wake` is not called after it.
+  void abandon();
+
+  void applied(std::vector<protocol::Applied> replies) override;
+  void deliver(room::Parcel parcel) override;
+  void end(protocol::Bye bye) override;
+
+ private:
+  enum class Place { outside, entering, inside, leaving };
+
+  void handle(protocol::Hello& hello);
+  void handle(protocol::Join& join);
+  void handle(const protocol::Leave& leave);
+  void handle(protocol::View& view);
+  void handle(protocol::EditMessage& edit);
+  void handle(const protocol::Ping& ping);
+  void handle(const protocol::Undo& undo) { refuse_unsupported(undo.id, "undo"); }
+  void handle(const protocol::Redo& redo) { refuse_unsupported(redo.id, "redo"); }
+  void handle(const protocol::Cursor& cursor) { refuse_unsupported(cursor.id, "cursor"); }
+  void handle(const protocol::Events& events) { refuse_unsupported(events.id, "events"); }
+
+  void say(const protocol::ServerMessage& message);
+  void done(std::optional<protocol::MessageId> id);
+  void reject(std::optional<protocol::MessageId> id, protocol::Failure why);
+  void refuse_unsupported(std::optional<protocol::MessageId> id, const char* what);
+  void entered(const std::shared_ptr<room::Room>& room,
+               protocol::Result<room::Room::Entrance> entrance,
+               std::optional<protocol::MessageId> id);
+  void answered(std::optional<protocol::MessageId> id, const protocol::Result<void>& result);
+  void in_room(std::function<void(room::Room&, room::ViewerId)> task);
+
+  room::Atlas& atlas_;
+  const std::unique_ptr<room::Strand> own_;
+  std::function<void()> wake_;
+  Outbox outbox_;
+  protocol::User user_;  // its session is empty before the hello
+  std::uint64_t author_ = 0;
+  Place place_ = Place::outside;
+  std::shared_ptr<room::Room> room_;  // while inside or leaving
+  room::ViewerId viewer_ = 0;
+  int unanswered_ = 0;
+  bool ending_ = false, abandoned_ = false;
+};
+
+}  // namespace earthwork::net

@@ -1,0 +1,14 @@
+/// One connection: HTTP requests one after the other, until one of them becomes a WebSocket.
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/ip/tcp.hpp>
+
+#include "server/net/service.hpp"
+
+namespace earthwork::net {
+
+/// Runs the connection to its end; `socket` is on a strand. Does not throw.
+boost::asio::awaitable<void> serve_connection(boost::asio::ip::tcp::socket socket, Service service);
+
+}  // namespace earthwork::net

@@ -1,0 +1,149 @@
+#include "server/net/map_resource.hpp"
+
+#include <exception>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "server/net/glb_export.hpp"
+#include "server/net/png.hpp"
+
+namespace earthwork::net {
+namespace {
+
+using nlohmann::ordered_json;
+using protocol::Code;
+using room::Room;
+
+HttpResponse busy() {
+  HttpResponse response =
+      problem(503, {Code::too_large, "too many exports and pictures are being made", {}});
+  response.headers.emplace_back("Retry-After", "1");
+  return response;
+}
+
+/// Answers with what `make` gives, made by the workers.
+void answer_later(Workers& workers, Respond respond, std::function<HttpResponse()> make) {
+  const bool taken = workers.offer([respond, make = std::move(make)] {
+    try {
+      respond(make());
+    } catch (const std::exception& error) {  // out of memory, say: this answer's trouble alone
+      respond(problem({Code::internal, error.what(), {}}));
+    }
+  });
+  if (!taken) respond(busy());
+}
+
+/// Runs `then` on the room's strand as soon as every mesh is up to date there. The work is cut into
+/// pieces, so that edits get between; they grow, so that it ends however many edits there are.
+void with_meshes(const RoomPointer& room, std::function<void(Room&)> then,
+                 std::size_t budget_chunks = 64) {
+  room->strand().post([room, then = std::move(then), budget_chunks] {
+    if (room->refresh_meshes(budget_chunks))
+      then(*room);
+    else
+      with_meshes(room, then, budget_chunks * 2);
+  });
+}
+
+ordered_json by_case(const std::array<std::uint64_t, 16>& counts) {
+  ordered_json out = ordered_json::object();
+  for (std::size_t i = 0; i < counts.size(); ++i) out[std::to_string(i)] = counts[i];
+  return out;
+}
+
+ordered_json written(const room::RoomFigures& figures, int resolution) {
+  const mesh::Figures& g = figures.geometry;
+  const auto voxels = static_cast<double>(figures.chunks) * resolution * resolution;
+  return {
+      {"seq", figures.seq},
+      {"hash", protocol::hex(figures.hash)},
+      {"mesh_hash", protocol::hex(figures.meshes.hash)},
+      {"surface_area", g.surface_area},
+      {"wall_length", g.wall_length},
+      {"wall_sections", g.wall_sections},
+      {"degenerate_wall_sections", g.degenerate_wall_sections},
+      {"sharp_features", g.sharp_features},
+      {"clamped_features", g.clamped_features},
+      {"diagonal_connections", g.diagonal_connections},
+      {"cells_by_case", by_case(g.cells_by_case)},
+      {"filled_voxels", g.filled_voxels},
+      {"edits", figures.seq},
+      {"borderline_cells", 0},  // every decision is made on integers
+      {"triangles", figures.meshes.triangles},
+      {"vertices", figures.meshes.vertices},
+      {"chunks", figures.chunks},
+      {"meshed_chunks", figures.meshes.chunks},
+      {"voxel_bytes", figures.voxel_bytes},
+      {"mesh_bytes", figures.meshes.bytes},
+      {"bytes_per_voxel", voxels > 0 ? static_cast<double>(figures.voxel_bytes) / voxels : 0.0}};
+}
+
+}  // namespace
+
+void describe_map(const RoomPointer& room, int status, Respond respond) {
+  room->strand().post([room, status, respond = std::move(respond)] {
+    const room::RoomInfo info = room->info();
+    HttpResponse response =
+        json_response(status, {{"name", room->name()},
+                               {"settings", protocol::write_settings(room->settings())},
+                               {"epoch", protocol::hex(room->epoch())},
+                               {"seq", info.seq},
+                               {"hash", protocol::hex(info.hash)},
+                               {"chunks", info.chunks},
+                               {"users", info.users}});
+    if (status == 201) response.headers.emplace_back("Location", "/api/maps/" + room->name());
+    respond(std::move(response));
+  });
+}
+
+void give_figures(const RoomPointer& room, Respond respond) {
+  with_meshes(room, [respond = std::move(respond)](Room& live) {
+    respond(json_response(200, written(live.figures(), live.settings().chunk_resolution)));
+  });
+}
+
+void give_states(const RoomPointer& room, std::uint64_t layer, Workers& workers, Respond respond) {
+  room->strand().post([room, layer, &workers, respond = std::move(respond)] {
+    auto drawn = room->states(layer);
+    if (!drawn) {
+      const bool too_large = drawn.error().code == Code::too_large;
+      return respond(too_large ? problem(422, drawn.error()) : problem(drawn.error()));
+    }
+    auto picture = std::make_shared<room::StatesPicture>(std::move(*drawn));
+    answer_later(workers, respond, [picture]() -> HttpResponse {
+      auto png = encode_png(*picture);
+      if (!png) return problem(png.error());
+      return {.status = 200, .content_type = "image/png", .headers = {}, .body = std::move(*png)};
+    });
+  });
+}
+
+void give_export(const RoomPointer& room, ExportQuestion question, Workers& workers,
+                 Respond respond) {
+  auto answer = [room, question = std::move(question), &workers,
+                 respond = std::move(respond)](Room& live) {
+    room::MeshSnapshot snapshot = live.meshes();
+    if (question.seq && *question.seq != snapshot.seq) {
+      return respond(problem(
+          {Code::not_supported,
+           "seq: only the map as it is now can be exported, seq " + std::to_string(snapshot.seq),
+           "seq"}));
+    }
+    const std::string tag = export_tag(live.settings(), snapshot.mesh_hash);
+    if (question.if_none_match && names_tag(*question.if_none_match, tag))
+      return respond({.status = 304, .content_type = {}, .headers = {{"ETag", tag}}, .body = {}});
+
+    answer_later(workers, respond, [room, snapshot, tag]() -> HttpResponse {
+      auto file = make_glb(room->settings(), snapshot.records);
+      if (!file) return problem(422, file.error());
+      return {.status = 200,
+              .content_type = "model/gltf-binary",
+              .headers = {{"ETag", tag}},
+              .body = std::move(*file)};
+    });
+  };
+  with_meshes(room, std::move(answer));
+}
+
+}  // namespace earthwork::net

@@ -1,0 +1,133 @@
+#include "server/net/server.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "server/net/api.hpp"
+#include "server/net/connections.hpp"
+#include "server/net/http_connection.hpp"
+#include "server/net/workers.hpp"
+#include "server/room/asio_strand.hpp"
+
+namespace earthwork::net {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+
+constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
+constexpr std::chrono::milliseconds kStopPatience{3500};
+constexpr int kWorkerThreads = 1;
+
+}  // namespace
+
+/// Destroyed from the bottom up: what holds coroutines and tasks goes before the context that
+/// they run on.
+struct Server::Running {
+  explicit Running(const ServerOptions& options)
+      : acceptor(asio::make_strand(context)),
+        address(options.listen),
+        atlas([this] { return room::make_asio_strand(context.get_executor()); }),
+        limits(options.limits) {}
+
+  void listen();
+  asio::awaitable<void> accept();
+
+  asio::io_context context;
+  asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(context);
+  tcp::acceptor acceptor;
+  ListenAddress address;
+  room::Atlas atlas;
+  Connections connections;
+  SessionLimits limits;
+  Workers workers{kWorkerThreads};
+  std::optional<Api> api;
+  std::optional<Service> service;
+  std::once_flag stopped;
+  std::vector<std::jthread> threads;
+};
+
+void Server::Running::listen() {
+  const tcp::endpoint endpoint(asio::ip::make_address(address.numeric_host()), address.port);
+  acceptor.open(endpoint.protocol());
+  acceptor.set_option(tcp::acceptor::reuse_address(true));
+  acceptor.bind(endpoint);
+  acceptor.listen();
+  address.port = acceptor.local_endpoint().port();
+}
+
+asio::awaitable<void> Server::Running::accept() {
+  asio::steady_timer pause(acceptor.get_executor());
+  for (;;) {
+    auto [error, socket] = co_await acceptor.async_accept(asio::make_strand(context), kAwait);
+    if (error == asio::error::operation_aborted || !acceptor.is_open()) co_return;
+    if (error) {
+      // Out of file descriptors, most likely: others must end first.
+      spdlog::warn("a connection could not be accepted: {}", error.message());
+      pause.expires_after(std::chrono::milliseconds(100));
+      co_await pause.async_wait(kAwait);
+      continue;
+    }
+    if (connections.count() >= limits.connections) continue;  // the socket closes itself
+    const auto executor = socket.get_executor();
+    asio::co_spawn(executor, serve_connection(std::move(socket), *service), asio::detached);
+  }
+}
+
+protocol::Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options) {
+  auto running = std::make_unique<Running>(options);
+  try {
+    running->listen();
+  } catch (const boost::system::system_error& error) {
+    return protocol::fail(
+        protocol::Code::bad_field,
+        "cannot listen on " + options.listen.text() + ": " + error.code().message(), "listen");
+  }
+  running->api.emplace(running->atlas, running->workers,
+                       Access(running->address, options.allowed_hosts));
+  running->service.emplace(
+      Service{running->atlas, *running->api, running->connections, running->limits});
+  asio::co_spawn(running->acceptor.get_executor(), running->accept(), asio::detached);
+
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0 ? options.threads : cores;
+  for (int i = 0; i < threads; ++i)
+    running->threads.emplace_back([context = &running->context] { context->run(); });
+  return std::unique_ptr<Server>(new Server(std::move(running)));
+}
+
+Server::Server(std::unique_ptr<Running> running) : running_(std::move(running)) {}
+
+Server::~Server() { stop(); }
+
+const ListenAddress& Server::address() const { return running_->address; }
+
+room::Atlas& Server::atlas() { return running_->atlas; }
+
+void Server::stop() {
+  std::call_once(running_->stopped, [this] {
+    asio::post(running_->acceptor.get_executor(), [running = running_.get()] {
+      boost::system::error_code ignored;
+      running->acceptor.close(ignored);
+    });
+    running_->connections.stop_all(kStopPatience);
+    running_->context.stop();
+    running_->threads.clear();
+  });
+}
+
+}  // namespace earthwork::net
