@@ -2,6 +2,10 @@
 // it is given and cut into other chunks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
+#include "server/mesh/chunk_cells.hpp"
 #include "server/mesh/figures.hpp"
 #include "server/mesh/mesher.hpp"
 #include "tests/mesh/script_map.hpp"
@@ -50,12 +54,51 @@ TEST_P(Conformance, ChunkSizeDoesNotShow) {
   const nlohmann::json expected = read_expected()[GetParam()];
   for (const int resolution : kResolutions) {
     SCOPED_TRACE(resolution);
-    // Bounds that other chunks do not fill are a different map; unbounded ones are not.
+    // Bounds that other chunks cannot fill are another map; the test below has none.
     const auto grid = rechunked(script.grid, resolution);
     if (!grid) continue;
     const voxel::Map map = play(*grid, script.edits);
     expect_figures(count_figures(map, script.max_feature_angle), expected);
   }
+}
+
+/// Every piece of the contour in 1/32768 voxel of the map: from, feature or from again, to.
+std::vector<std::array<std::int64_t, 6>> pieces(const voxel::Map& map, double max_feature_angle) {
+  std::vector<std::array<std::int64_t, 6>> found;
+  const std::int64_t limit = sharpness_limit(max_feature_angle);
+  ChunkCells cells;
+  for (const voxel::ChunkKey& key : map.meshed_keys()) {
+    cells.assign(map.neighbourhood(key), map.grid().resolution);
+    for (int y = 0; y < cells.height(); ++y) {
+      cells.walk_row(y, [&](const MixedCell& cell) {
+        const std::int64_t x0 = (key.x * map.grid().resolution + cell.x) * 32768ll;
+        const std::int64_t y0 = (key.y * map.grid().resolution + cell.y) * 32768ll;
+        const CellHits hits = cells.hits(cell);
+        const CellContour inside = contour(cell.cell_case, hits, limit);
+        for (int k = 0; k < inside.count; ++k) {
+          const Piece& piece = inside.pieces[static_cast<std::size_t>(k)];
+          const CellPoint from = place(piece.from, hits[piece.from]);
+          const CellPoint tip = piece.feature.value_or(from);
+          const CellPoint to = place(piece.to, hits[piece.to]);
+          found.push_back({x0 + from.x, y0 + from.y, x0 + tip.x, y0 + tip.y, x0 + to.x, y0 + to.y});
+        }
+      });
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST_P(Conformance, TheContourIsTheSameInChunksOfAnySize) {
+  const Script script = read_script(GetParam());
+  const auto in_chunks_of = [&](int resolution) {
+    return pieces(play({.resolution = resolution, .bounds = {}}, script.edits),
+                  script.max_feature_angle);
+  };
+  const auto small = in_chunks_of(8);
+  EXPECT_GT(small.size(), 10u);
+  for (const int resolution : {16, 32, 64})
+    EXPECT_EQ(in_chunks_of(resolution), small) << resolution;
 }
 
 TEST_P(Conformance, TheMeshHasTheFiguresArea) {
