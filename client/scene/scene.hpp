@@ -1,0 +1,81 @@
+/// The meshes of a map as a viewer has them, put together from frames alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "protocol/chunk_record.hpp"
+#include "protocol/frame.hpp"
+#include "protocol/limits.hpp"
+#include "protocol/result.hpp"
+
+namespace earthwork::scene {
+
+/// What a scene holds at most, and a group in progress too: a full view on every layer.
+inline constexpr std::size_t kMaxSceneChunks = protocol::kMaxViewChunks * protocol::kMaxLayers;
+
+struct SceneChunk {
+  std::uint64_t revision = 0;  ///< The seq at which the mesh came to be.
+  protocol::ChunkMesh mesh;
+  std::uint64_t hash_term = 0;  ///< What it adds to the scene's mesh hash.
+};
+
+struct SceneStats {
+  std::uint64_t chunks = 0, triangles = 0, vertices = 0, sections = 0;  ///< Held now.
+  std::uint64_t frames = 0, bytes = 0;                                  ///< Received in all.
+  friend bool operator==(const SceneStats&, const SceneStats&) = default;
+};
+
+/// One thread at a time.
+class Scene {
+ public:
+  using Chunks = std::map<protocol::ChunkKey, SceneChunk>;
+
+  /// The map was joined, in this epoch; of another one, all meshes go.
+  void join(std::uint64_t epoch);
+  /// All of view `n` has arrived, as of `seq`.
+  void catch_up(std::uint32_t n, std::uint64_t seq);
+
+  /// Takes what was complete with one binary message of `message_bytes`, in order; the records are
+  /// moved from. A record outside a group is applied at once; those of a group together at its
+  /// end, and a group of another epoch replaces all there was. Fails with bad_frame or too_large;
+  /// after that the scene must not be fed again.
+  [[nodiscard]] protocol::Result<void> take(std::span<protocol::FrameEvent> events,
+                                            std::size_t message_bytes);
+
+  /// Those that have a mesh. Valid until the next change.
+  [[nodiscard]] const Chunks& chunks() const { return chunks_; }
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+  /// The last event that all meshes show; 0 before it is known. A mesh may already show more.
+  [[nodiscard]] std::uint64_t seq() const { return seq_; }
+  /// The number of the last view that is complete, if one is.
+  [[nodiscard]] std::optional<std::uint32_t> complete_view() const { return complete_view_; }
+  /// Of all that is held (GEOMETRY: "Hashes"), kept up to date: asking costs nothing.
+  [[nodiscard]] std::uint64_t mesh_hash() const { return mesh_hash_; }
+  [[nodiscard]] const SceneStats& stats() const { return stats_; }
+
+ private:
+  struct Group {
+    protocol::GroupBegin begin;
+    std::map<protocol::ChunkKey, protocol::ChunkRecord> records;
+  };
+
+  protocol::Result<void> take_begin(const protocol::GroupBegin& begin);
+  protocol::Result<void> take_record(protocol::ChunkRecord& record);
+  protocol::Result<void> take_end(const protocol::GroupEnd& end);
+  protocol::Result<void> apply(protocol::ChunkRecord& record);
+  void put(const protocol::ChunkKey& key, SceneChunk chunk);
+  void drop(const protocol::ChunkKey& key);
+  void clear();
+
+  Chunks chunks_;
+  std::optional<Group> group_;
+  std::uint64_t epoch_ = 0, seq_ = 0, mesh_hash_ = 0;
+  std::optional<std::uint32_t> complete_view_;
+  SceneStats stats_;
+};
+
+}  // namespace earthwork::scene
