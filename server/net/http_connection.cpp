@@ -6,6 +6,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/rfc7230.hpp>
@@ -13,6 +14,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "server/net/signal.hpp"
@@ -92,7 +94,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   awaitable<bool> upgrade(Request request, Connections::Id id);
   awaitable<bool> answer(HttpResponse response, bool keep_alive, bool with_body);
 
-  Stream stream_;
+  beast::tcp_stream stream_;
   const Service service_;
   beast::flat_buffer buffer_{kMaxHeaderBytes + kMaxBodyBytes};
   std::optional<Parser> parser_;  // of the request being read
@@ -170,8 +172,10 @@ awaitable<bool> HttpConnection::upgrade(Request request, Connections::Id id) {
     co_return co_await answer(problem(400, failure), false, true);
   }
   if (buffer_.size() > 0) co_return false;  // frames before the handshake's end
+  std::ostringstream handshake;
+  handshake << request;
   stream_.expires_never();
-  co_await run_session(std::move(stream_), std::move(request), service_, id);
+  co_await run_session(stream_.release_socket(), handshake.str(), service_, id);
   co_return false;
 }
 

@@ -1,20 +1,22 @@
 #include "server/net/listen_address.hpp"
 
-#include <arpa/inet.h>
-
+#include <boost/asio/ip/address.hpp>
 #include <charconv>
-#include <cstring>
 
 namespace earthwork::net {
 namespace {
 
+namespace ip = boost::asio::ip;
+
 bool is_v4(const std::string& host) {
-  in_addr address{};
-  return inet_pton(AF_INET, host.c_str(), &address) == 1;
+  boost::system::error_code error;
+  ip::make_address_v4(host, error);
+  return !error;
 }
 bool is_v6(const std::string& host) {
-  in6_addr address{};
-  return inet_pton(AF_INET6, host.c_str(), &address) == 1;
+  boost::system::error_code error;
+  ip::make_address_v6(host, error);
+  return !error;
 }
 
 }  // namespace
@@ -27,11 +29,9 @@ std::string ListenAddress::text() const { return host_text() + ":" + std::to_str
 
 bool ListenAddress::loopback() const {
   if (host == "localhost") return true;
-  if (in_addr v4{}; inet_pton(AF_INET, host.c_str(), &v4) == 1)
-    return ntohl(v4.s_addr) >> 24 == 127;
-  in6_addr v6{};
-  return inet_pton(AF_INET6, host.c_str(), &v6) == 1 &&
-         std::memcmp(&v6, &in6addr_loopback, sizeof v6) == 0;
+  boost::system::error_code error;
+  const ip::address address = ip::make_address(host, error);
+  return !error && address.is_loopback();
 }
 
 std::string ListenAddress::numeric_host() const { return host == "localhost" ? "127.0.0.1" : host; }

@@ -1,14 +1,16 @@
 #include "server/net/websocket_session.hpp"
 
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-
+#include <algorithm>
 #include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <chrono>
+#include <limits>
 #include <memory>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "protocol/limits.hpp"
@@ -26,18 +28,46 @@ namespace websocket = beast::websocket;
 using asio::awaitable;
 using protocol::Code;
 using Clock = std::chrono::steady_clock;
-using Request = beast::http::request<beast::http::string_body>;
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 
 // Small, so that control never waits behind megabytes that the kernel has already taken.
 constexpr int kSendBufferBytes = 64 * 1024, kSendLowWaterBytes = 16 * 1024;
 
+template <int name>
+using TcpOption = asio::detail::socket_option::integer<IPPROTO_TCP, name>;
+
+/// A rate policy that limits nothing, but is told of every transfer, parts of messages included.
+class ActivityPolicy {
+ public:
+  [[nodiscard]] Clock::time_point last_byte() const { return last_byte_; }
+  /// Whether written bytes count; received ones always do.
+  void count_written(bool count) { count_written_ = count; }
+
+ private:
+  friend class beast::rate_policy_access;
+
+  static std::size_t available_read_bytes() { return std::numeric_limits<std::size_t>::max(); }
+  static std::size_t available_write_bytes() { return std::numeric_limits<std::size_t>::max(); }
+  void transfer_read_bytes(std::size_t n) {
+    if (n > 0) last_byte_ = Clock::now();
+  }
+  void transfer_write_bytes(std::size_t n) {
+    if (n > 0 && count_written_) last_byte_ = Clock::now();
+  }
+  static void on_timer() {}
+
+  Clock::time_point last_byte_ = Clock::now();
+  bool count_written_ = true;
+};
+
+using Stream = beast::basic_stream<asio::ip::tcp, asio::any_io_executor, ActivityPolicy>;
+
 /// Beast ends a session through errors it makes itself; here all ends come from the coroutines.
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
  public:
-  WebSocketSession(Stream stream, const Service& service)
-      : ws_(std::move(stream)),
+  WebSocketSession(asio::ip::tcp::socket socket, const Service& service)
+      : ws_(std::move(socket)),
         limits_(service.limits),
         readable_(ws_.get_executor()),
         writable_(ws_.get_executor()),
@@ -46,7 +76,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
         conversation_(std::make_shared<Conversation>(
             service.atlas, room::wrap_serial_executor(ws_.get_executor()), [this] { wake(); })) {}
 
-  awaitable<void> run(Request request);
+  awaitable<void> run(std::string handshake);
 
   /// Any thread.
   void stop() {
@@ -83,12 +113,10 @@ void WebSocketSession::set_options() {
   beast::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::send_buffer_size(kSendBufferBytes), ignored);
-  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kSendLowWaterBytes,
-             sizeof kSendLowWaterBytes);
+  socket.set_option(TcpOption<TCP_NOTSENT_LOWAT>(kSendLowWaterBytes), ignored);
   // A peer that is gone without a word acknowledges nothing: the kernel then ends the connection.
-  const auto unacknowledged_ms = static_cast<unsigned>(limits_.silence.count());
-  setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT, &unacknowledged_ms,
-             sizeof unacknowledged_ms);
+  socket.set_option(TcpOption<TCP_USER_TIMEOUT>(static_cast<int>(limits_.silence.count())),
+                    ignored);
 
   ws_.set_option(websocket::stream_base::timeout{.handshake_timeout = limits_.farewell,
                                                  .idle_timeout = websocket::stream_base::none(),
@@ -100,10 +128,10 @@ void WebSocketSession::set_options() {
   ws_.auto_fragment(false);
 }
 
-awaitable<void> WebSocketSession::run(Request request) {
+awaitable<void> WebSocketSession::run(std::string handshake) {
   using namespace asio::experimental::awaitable_operators;
   set_options();
-  const auto [error] = co_await ws_.async_accept(request, kAwait);
+  const auto [error] = co_await ws_.async_accept(asio::buffer(handshake), kAwait);
   if (!error) {
     opened_ = Clock::now();
     co_await (read() || write() || watch());
@@ -216,11 +244,11 @@ awaitable<void> WebSocketSession::sleep(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-awaitable<void> run_session(Stream stream, Request request, Service service,
+awaitable<void> run_session(asio::ip::tcp::socket socket, std::string handshake, Service service,
                             Connections::Id connection) {
-  const auto session = std::make_shared<WebSocketSession>(std::move(stream), service);
+  const auto session = std::make_shared<WebSocketSession>(std::move(socket), service);
   service.connections.replace(connection, [session] { session->stop(); });
-  co_await session->run(std::move(request));
+  co_await session->run(std::move(handshake));
 }
 
 }  // namespace earthwork::net

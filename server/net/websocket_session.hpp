@@ -2,21 +2,19 @@
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
-#include <boost/beast/http/message.hpp>
-#include <boost/beast/http/string_body.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <string>
 
 #include "server/net/connections.hpp"
 #include "server/net/service.hpp"
-#include "server/net/stream.hpp"
 
 namespace earthwork::net {
 
-/// Answers the upgrade and runs the session to its end; `stream` is on a strand, and closed then.
-/// The request offers the subprotocol, and may come here at all.
-boost::asio::awaitable<void> run_session(
-    Stream stream, boost::beast::http::request<boost::beast::http::string_body> request,
-    Service service, Connections::Id connection);
-
 inline constexpr const char* kSubprotocol = "earthwork.v1";
+
+/// Answers the upgrade and runs the session to its end; `socket` is on a strand, and closed then.
+/// `handshake` is the request as it was read: it offers the subprotocol, and may come here at all.
+boost::asio::awaitable<void> run_session(boost::asio::ip::tcp::socket socket, std::string handshake,
+                                         Service service, Connections::Id connection);
 
 }  // namespace earthwork::net

@@ -66,7 +66,10 @@ std::size_t end_of_function(const std::vector<std::string_view>& lines, std::siz
     if (!goes_on || lines[i].ends_with(';') || lines[i].ends_with('}')) return begin;
     ++i;
   }
-  while (i < lines.size() && !(indent_of(lines[i]) == indent && lines[i].ends_with('}'))) ++i;
+  // A statement whose last argument is a lambda ends in "});".
+  while (i < lines.size() &&
+         !(indent_of(lines[i]) == indent && lines[i].substr(indent).starts_with('}')))
+    ++i;
   return std::min(i + 1, lines.size());
 }
 
