@@ -1,0 +1,113 @@
+#include "tests/room/onlooker.hpp"
+
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace earthwork::room {
+namespace {
+
+using protocol::ChunkKey;
+using protocol::ChunkRecord;
+using Rim = std::set<std::int32_t>;
+
+constexpr std::int32_t kHalf = 16384, kVoxel = 32768;
+
+/// Where the mesh has vertices on the line x = `at`, or y = `at` when `along_x`.
+Rim rim_of(const std::map<ChunkKey, ChunkRecord>& chunks, const ChunkKey& key, std::int32_t at,
+           bool along_x) {
+  Rim rim;
+  const auto found = chunks.find(key);
+  if (found == chunks.end()) return rim;
+  for (const auto& p : found->second.mesh.vertices) {
+    const auto [across, along] = along_x ? std::pair(p.y, p.x) : std::pair(p.x, p.y);
+    if (across == at) rim.insert(along);
+  }
+  return rim;
+}
+
+std::string text(const ChunkKey& key) {
+  return "chunk " + std::to_string(key.x) + ", " + std::to_string(key.y);
+}
+
+}  // namespace
+
+ChunkRecord decoded(const RecordBytes& bytes) {
+  return protocol::decode_record(std::as_bytes(std::span(*bytes))).value();
+}
+
+void Onlooker::applied(std::vector<protocol::Applied> replies) {
+  acks.insert(acks.end(), replies.begin(), replies.end());
+}
+
+void Onlooker::deliver(Parcel parcel) {
+  for (const auto* records : {&parcel.group_records, &parcel.first_seen}) {
+    for (const RecordBytes& bytes : *records) {
+      ChunkRecord record = decoded(bytes);
+      if (record.removed)
+        chunks.erase(record.key);
+      else
+        chunks[record.key] = std::move(record);
+    }
+  }
+  parcels.push_back(std::move(parcel));
+}
+
+std::uint64_t Onlooker::mesh_hash() const {
+  std::uint64_t sum = 0;
+  for (const auto& [key, record] : chunks)
+    sum += protocol::mesh_hash_term(key, protocol::mesh_hash(record.mesh));
+  return sum;
+}
+
+std::size_t Onlooker::grouped() const {
+  std::size_t count = 0;
+  for (const Parcel& parcel : parcels) count += parcel.group_records.size();
+  return count;
+}
+
+std::size_t Onlooker::first_seen() const {
+  std::size_t count = 0;
+  for (const Parcel& parcel : parcels) count += parcel.first_seen.size();
+  return count;
+}
+
+std::string torn_rim(const std::map<ChunkKey, ChunkRecord>& chunks, int resolution) {
+  const std::int32_t far = resolution * kVoxel + kHalf;
+  for (const auto& [key, record] : chunks) {
+    ChunkKey right = key, upper = key, left = key, lower = key;
+    ++right.x, ++upper.y, --left.x, --lower.y;
+    if (rim_of(chunks, key, far, false) != rim_of(chunks, right, kHalf, false))
+      return text(key) + " and the one to its right";
+    if (rim_of(chunks, key, far, true) != rim_of(chunks, upper, kHalf, true))
+      return text(key) + " and the one above";
+    if (rim_of(chunks, key, kHalf, false) != rim_of(chunks, left, far, false))
+      return text(key) + " and the one to its left";
+    if (rim_of(chunks, key, kHalf, true) != rim_of(chunks, lower, far, true))
+      return text(key) + " and the one below";
+  }
+  return {};
+}
+
+protocol::Edit disc(double x, double y, double radius, bool fill) {
+  return {.stencil = protocol::StencilShape::circle,
+          .fill = fill,
+          .radius = radius,
+          .path = {{x, y}},
+          .stroke = {}};
+}
+
+protocol::Edit box(double x, double y, double radius, bool fill) {
+  protocol::Edit edit = disc(x, y, radius, fill);
+  edit.stencil = protocol::StencilShape::square;
+  return edit;
+}
+
+protocol::View view_all(std::uint32_t n) { return {.n = n, .rect = {}, .have = {}, .id = {}}; }
+
+protocol::View view_rect(std::uint32_t n, protocol::MapRect rect) {
+  return {.n = n, .rect = rect, .have = {}, .id = {}};
+}
+
+}  // namespace earthwork::room

@@ -1,0 +1,46 @@
+/// A viewer for tests: keeps what it is told, and the mesh that its parcels add up to.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "protocol/chunk_record.hpp"
+#include "server/room/room.hpp"
+#include "server/room/viewer.hpp"
+
+namespace earthwork::room {
+
+class Onlooker final : public Viewer {
+ public:
+  void applied(std::vector<protocol::Applied> replies) override;
+  void deliver(Parcel parcel) override;
+  void end(protocol::Bye why) override { bye = std::move(why); }
+
+  /// What the mesh hash of a whole map would be that had these chunks.
+  [[nodiscard]] std::uint64_t mesh_hash() const;
+  /// Of all parcels: the records of groups, and those outside.
+  [[nodiscard]] std::size_t grouped() const;
+  [[nodiscard]] std::size_t first_seen() const;
+  void forget_parcels() { parcels.clear(); }
+
+  std::vector<protocol::Applied> acks;
+  std::vector<Parcel> parcels;
+  std::optional<protocol::Bye> bye;
+  std::map<protocol::ChunkKey, protocol::ChunkRecord> chunks;
+};
+
+[[nodiscard]] protocol::ChunkRecord decoded(const RecordBytes& bytes);
+
+/// The first pair of neighbours whose vertices on their common rim line differ, as text; empty
+/// when all agree.
+[[nodiscard]] std::string torn_rim(
+    const std::map<protocol::ChunkKey, protocol::ChunkRecord>& chunks, int resolution);
+
+/// Edits and views, shortly.
+[[nodiscard]] protocol::Edit disc(double x, double y, double radius, bool fill = true);
+[[nodiscard]] protocol::Edit box(double x, double y, double radius, bool fill = true);
+[[nodiscard]] protocol::View view_all(std::uint32_t n);
+[[nodiscard]] protocol::View view_rect(std::uint32_t n, protocol::MapRect rect);
+
+}  // namespace earthwork::room

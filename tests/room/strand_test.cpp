@@ -1,0 +1,77 @@
+// Strands: tasks in order and one at a time, by hand and on threads alike.
+#include "server/room/strand.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/asio/thread_pool.hpp>
+#include <thread>
+#include <vector>
+
+#include "server/room/asio_strand.hpp"
+#include "server/room/entropy.hpp"
+#include "server/room/manual_strand.hpp"
+
+namespace earthwork::room {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(ManualStrand, RunsTasksInOrderAndThoseTheyPost) {
+  ManualStrand strand;
+  std::vector<int> ran;
+  strand.post([&] {
+    ran.push_back(1);
+    strand.post([&] { ran.push_back(3); });
+  });
+  strand.post([&] { ran.push_back(2); });
+  EXPECT_TRUE(ran.empty());
+  EXPECT_EQ(strand.run(), 3);
+  EXPECT_EQ(ran, (std::vector<int>{1, 2, 3}));
+}
+
+TEST(ManualStrand, LetsTimePassStepByStep) {
+  ManualStrand strand;
+  std::vector<std::int64_t> at;
+  strand.post_after(20ms, [&] { at.push_back(strand.now_ms()); });
+  strand.post_after(10ms, [&] {
+    at.push_back(strand.now_ms());
+    strand.post_after(5ms, [&] { at.push_back(strand.now_ms()); });
+  });
+  strand.advance(19ms);
+  EXPECT_EQ(at, (std::vector<std::int64_t>{10, 15}));
+  strand.advance(1ms);
+  EXPECT_EQ(at.back(), 20);
+  EXPECT_EQ(strand.now_ms(), 20);
+}
+
+TEST(AsioStrand, RunsOneTaskAtATimeInOrder) {
+  boost::asio::thread_pool pool(4);
+  const auto strand = make_asio_strand(pool.get_executor());
+  std::vector<int> ran;  // unguarded: the strand is what guards it
+  for (int i = 0; i < 1000; ++i) strand->post([&ran, i] { ran.push_back(i); });
+  pool.join();
+  ASSERT_EQ(ran.size(), 1000u);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(ran[static_cast<std::size_t>(i)], i);
+}
+
+TEST(AsioStrand, WaitsAsLongAsItIsTold) {
+  boost::asio::thread_pool pool(2);
+  const auto strand = make_asio_strand(pool.get_executor());
+  const auto start = std::chrono::steady_clock::now();
+  auto end = start;
+  strand->post_after(30ms, [&] { end = std::chrono::steady_clock::now(); });
+  pool.join();
+  EXPECT_GE(end - start, 30ms);
+  EXPECT_GT(strand->now_ms(), 1'600'000'000'000);
+}
+
+TEST(Entropy, GivesKeysOf128Bits) {
+  const std::string key = random_key();
+  EXPECT_EQ(key.size(), 32u);
+  EXPECT_EQ(key.find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_NE(key, random_key());
+  EXPECT_NE(random_u64(), random_u64());
+}
+
+}  // namespace
+}  // namespace earthwork::room

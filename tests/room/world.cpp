@@ -1,0 +1,55 @@
+#include "tests/room/world.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace earthwork::room {
+namespace {
+
+void must(const protocol::Result<void>& result) {
+  if (!result) throw std::runtime_error("refused: " + result.error().detail);
+}
+
+}  // namespace
+
+World::World(protocol::MapSettings settings) {
+  auto own = std::make_unique<ManualStrand>();
+  strand = own.get();
+  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, std::move(own));
+}
+
+World::Guest World::enter(const char* name) {
+  Guest guest;
+  guest.id = room->join(guest.eyes, {"0123456789abcdef", name, "#102030"}).value().viewer;
+  return guest;
+}
+
+void World::look(Guest& guest, const protocol::View& view) {
+  must(room->look(guest.id, view));
+  settle(guest);
+}
+
+protocol::Result<void> World::submit(Guest& guest, protocol::Edit edit) {
+  return room->submit(guest.id, {++guest.last_message, 7, std::move(edit)});
+}
+
+void World::edit(Guest& guest, protocol::Edit edit) {
+  must(submit(guest, std::move(edit)));
+  strand->run();
+}
+
+void World::settle(Guest& guest) {
+  for (std::size_t taken = SIZE_MAX; taken != guest.eyes->parcels.size();) {
+    strand->run();
+    taken = guest.eyes->parcels.size();
+    room->ready(guest.id);
+  }
+}
+
+std::uint64_t World::mesh_hash() {
+  while (!room->refresh_meshes(1000)) {
+  }
+  return room->meshes().mesh_hash;
+}
+
+}  // namespace earthwork::room
