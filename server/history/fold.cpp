@@ -23,9 +23,7 @@ voxel::Shape shape_of(protocol::StencilShape stencil) {
 
 }  // namespace
 
-voxel::Map make_map(const protocol::MapSettings& settings) {
-  return voxel::Map(grid_of(settings));
-}
+voxel::Map make_map(const protocol::MapSettings& settings) { return voxel::Map(grid_of(settings)); }
 
 const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit) {
   std::vector<voxel::Stencil> stamps;
