@@ -43,7 +43,7 @@ constexpr std::array<Case, 16> kCases{{
 
 Hit hit(Side side, const CellHits& hits) { return {place(side, hits[side]), hits[side].normal}; }
 
-std::optional<CellPoint> meeting(Side a, Side b, const CellHits& hits, std::int64_t limit) {
+inline std::optional<CellPoint> meeting(Side a, Side b, const CellHits& hits, std::int64_t limit) {
   if (!sharp(hits[a].normal, hits[b].normal, limit)) return std::nullopt;
   return feature_point(hit(a, hits), hit(b, hits), limit);
 }
@@ -126,6 +126,16 @@ CellContour diagonal(const Diagonal& at, const CellHits& hits, std::int64_t limi
           int{p1.clamped} + int{p2.clamped}};
 }
 
+CellContour around_corner(const Case& c, const CellHits& hits, std::int64_t limit) {
+  const CornerFeature feature = corner_feature(c.corner, c.from, c.to, hits, limit);
+  return {1, {Piece{c.from, c.to, feature.point}, {}}, false, int{feature.clamped}};
+}
+
+CellContour across(const Case& c, const CellHits& hits, std::int64_t limit) {
+  const auto p = meeting(c.from, c.to, hits, limit);
+  return {1, {Piece{c.from, c.to, p && inside(*p) ? p : std::nullopt}, {}}, false, 0};
+}
+
 std::int64_t cross(CellPoint p, CellPoint q) { return p.x * q.y - p.y * q.x; }
 
 /// The filled part of the side from corner `u` to corner `v`, cut at `at`, seen from the origin.
@@ -157,28 +167,20 @@ std::int64_t sharpness_limit(double max_feature_angle_degrees) {
   return std::llround(kUnit * (std::cos(max_feature_angle_degrees * kPi / 180) - 1e-4));
 }
 
+// Each of these builds its result where the caller wants it: a copy would cost more than the cell.
 CellContour contour(unsigned cell_case, const CellHits& hits, std::int64_t limit) {
   const Case& c = kCases[cell_case];
-  CellContour result;
   switch (c.shape) {
-    case Shape::none:
-      return result;
+    case Shape::corner:
+      return around_corner(c, hits, limit);
+    case Shape::open:
+      return across(c, hits, limit);
     case Shape::diagonal:
       return diagonal(cell_case == 6 ? kCase6 : kCase9, hits, limit);
-    case Shape::corner: {
-      const CornerFeature feature = corner_feature(c.corner, c.from, c.to, hits, limit);
-      result.pieces[0] = {c.from, c.to, feature.point};
-      result.clamped_features = feature.clamped ? 1 : 0;
-      break;
-    }
-    case Shape::open:
-      result.pieces[0] = {c.from, c.to, meeting(c.from, c.to, hits, limit)};
-      auto& feature = result.pieces[0].feature;
-      if (feature && !inside(*feature)) feature.reset();
+    case Shape::none:
       break;
   }
-  result.count = 1;
-  return result;
+  return {};
 }
 
 // Green's theorem: the pieces, and the filled parts of the sides, each counter-clockwise.
