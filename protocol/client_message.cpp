@@ -3,6 +3,7 @@
 
 #include "protocol/json_fields.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/message_fields.hpp"
 #include "protocol/messages.hpp"
 
 namespace earthwork::protocol {
@@ -10,20 +11,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr std::int64_t kMaxVersion = 65535;
-constexpr std::size_t kKeyDigits = 32, kEpochDigits = 16;
-
-MessageId read_id(JsonFields& in) { return in.integer("id", {1, kMaxInteger}); }
-
-std::optional<MessageId> read_optional_id(JsonFields& in) {
-  if (!in.has("id")) return std::nullopt;
-  return read_id(in);
-}
-
-std::uint64_t read_seq(JsonFields& in, const char* key, std::int64_t min = 0) {
-  return static_cast<std::uint64_t>(in.integer(key, {min, kMaxInteger}));
-}
 
 MapRect read_rect(JsonFields& in) {
   const auto r = in.numbers("rect", 4);
@@ -68,7 +55,7 @@ Result<Have> read_have(JsonFields in) {
 
 Result<ClientMessage> read_view(JsonFields& in) {
   View view;
-  view.n = static_cast<std::uint32_t>(in.integer("n", {0, UINT32_MAX}));
+  view.n = read_u32(in, "n");
   const bool all = in.has("all") && in.boolean("all");
   if (all && in.has("rect"))
     in.refuse(Code::bad_field, "all", "does not go with rect");

@@ -34,22 +34,6 @@ std::vector<MapPoint> read_path(JsonFields& in) {
   return path;
 }
 
-template <class Json>
-void write_fields(const Edit& edit, Json& out) {
-  if (edit.layer != 0) out["layer"] = edit.layer;
-  out["stencil"] = edit.stencil == StencilShape::square ? "square" : "circle";
-  out["fill"] = edit.fill;
-  if (edit.is_path) {
-    auto& path = out["path"] = Json::array();
-    for (const MapPoint& point : edit.path) path.push_back({point.x, point.y});
-  } else {
-    out["x"] = edit.path.at(0).x;
-    out["y"] = edit.path.at(0).y;
-  }
-  out["radius"] = edit.radius;
-  if (edit.stroke) out["stroke"] = *edit.stroke;
-}
-
 }  // namespace
 
 Result<Edit> read_edit(const json& json) {
@@ -72,7 +56,19 @@ Result<Edit> read_edit(const json& json) {
   return in.result(std::move(edit));
 }
 
-void write_edit(const Edit& edit, json& json) { write_fields(edit, json); }
-void write_edit(const Edit& edit, nlohmann::ordered_json& json) { write_fields(edit, json); }
+void write_edit(const Edit& edit, nlohmann::ordered_json& out) {
+  if (edit.layer != 0) out["layer"] = edit.layer;
+  out["stencil"] = edit.stencil == StencilShape::square ? "square" : "circle";
+  out["fill"] = edit.fill;
+  if (edit.is_path) {
+    auto& path = out["path"] = nlohmann::ordered_json::array();
+    for (const MapPoint& point : edit.path) path.push_back({point.x, point.y});
+  } else {
+    out["x"] = edit.path.at(0).x;
+    out["y"] = edit.path.at(0).y;
+  }
+  out["radius"] = edit.radius;
+  if (edit.stroke) out["stroke"] = *edit.stroke;
+}
 
 }  // namespace earthwork::protocol

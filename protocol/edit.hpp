@@ -34,9 +34,8 @@ struct Edit {
 /// layer?, stroke?}. Unknown keys are ignored. Everything is finite, the path has 1 .. 1,024
 /// points, the radius is >= 0; limits that depend on the map are `check_edit`'s.
 [[nodiscard]] Result<Edit> read_edit(const nlohmann::json& json);
-/// The fields of `edit`, added to the object `json`; layer 0 is not written.
-void write_edit(const Edit& edit, nlohmann::json& json);
-void write_edit(const Edit& edit, nlohmann::ordered_json& json);
+/// The fields of `edit`, added to the object; layer 0 is not written.
+void write_edit(const Edit& edit, nlohmann::ordered_json& out);
 
 /// The limits of an edit that arrives for a map with these settings: layer, radius and
 /// coordinates in voxels, voxel visits and chunks, in this order. A recorded edit is never

@@ -3,6 +3,7 @@
 
 #include "protocol/json_fields.hpp"
 #include "protocol/limits.hpp"
+#include "protocol/message_fields.hpp"
 #include "protocol/messages.hpp"
 
 namespace earthwork::protocol {
@@ -10,9 +11,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-constexpr std::int64_t kMaxVersion = 65535;
-constexpr std::size_t kKeyDigits = 32, kSessionDigits = 16, kEpochDigits = 16;
 
 /// Every limit of protocol/limits.hpp that a client meets, by its name there.
 ordered_json write_limits() {
@@ -38,19 +36,6 @@ ordered_json write_limits() {
       {"mesh_coordinate_end", kMeshCoordinateEnd},
       {"max_wait_ms", kMaxWaitMs},
   };
-}
-
-MessageId read_id(JsonFields& in) { return in.integer("id", {1, kMaxInteger}); }
-
-std::optional<MessageId> read_optional_id(JsonFields& in) {
-  if (!in.has("id")) return std::nullopt;
-  return read_id(in);
-}
-
-std::uint64_t read_seq(JsonFields& in) { return static_cast<std::uint64_t>(in.integer("seq")); }
-
-std::uint32_t read_u32(JsonFields& in, const char* key) {
-  return static_cast<std::uint32_t>(in.integer(key, {0, UINT32_MAX}));
 }
 
 Failure read_failure(JsonFields& in) {

@@ -180,7 +180,7 @@ TEST(ChunkRecord, BoundsChains) {
   const string two_vertices("\x02\x00\x01\x02\x02\x00\x00", 7);  // counts, then (1, 0), (2, 0)
   const string down("\x00\x00\x01\x80", 4);
   EXPECT_EQ(refusal(with_body(two_vertices + string("\x01\x00\x09", 3) + down)), "good");
-  EXPECT_EQ(refusal(with_body(two_vertices + string("\x00\x00\x09", 3) + down)),
+  EXPECT_EQ(refusal(with_body(two_vertices + string("\x00\x00\x01\x00\x09", 5) + down)),
             "sections: a chain's length is 0 or beyond the count of sections");
   EXPECT_EQ(refusal(with_body(two_vertices + string("\x02\x00\x09", 3) + down)),
             "sections: a chain's length is 0 or beyond the count of sections");

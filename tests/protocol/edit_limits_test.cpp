@@ -99,6 +99,12 @@ TEST(EditLimits, CountAChunkOfALongStrokeOnce) {
             "too_large: path: 7364 chunks are beyond the limit of 4096");
 }
 
+TEST(EditLimits, LetAStrokeGoFarAcross) {
+  Edit diagonal = row(1024, 1, 5);
+  for (MapPoint& point : diagonal.path) point.y = point.x;
+  EXPECT_EQ(verdict(diagonal, map_of(8)), "good") << "the rectangle around it is 130 x 130 chunks";
+}
+
 TEST(EditLimits, LetAScribbleGoOverTheSameGround) {
   Edit scribble = row(1024, 0, 20);
   for (std::size_t i = 0; i < scribble.path.size(); ++i) scribble.path[i].x = i % 2 ? 200 : 0;

@@ -104,15 +104,11 @@ TEST(Edit, NamesAPointThatIsNone) {
 
 RC_GTEST_PROP(Edit, SurvivesTheRoundTrip, ()) {
   const Edit edit = *any_edit();
-  json plain;
-  write_edit(edit, plain);
-  nlohmann::ordered_json ordered;
-  write_edit(edit, ordered);
-  for (const std::string& text : {plain.dump(), ordered.dump()}) {
-    const auto read = read_edit(json::parse(text));
-    RC_ASSERT(read.has_value());
-    RC_ASSERT(*read == edit);
-  }
+  nlohmann::ordered_json out;
+  write_edit(edit, out);
+  const auto read = read_edit(json::parse(out.dump()));
+  RC_ASSERT(read.has_value());
+  RC_ASSERT(*read == edit);
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ TEST(Settings, BoundVoxelsAnglesAndHeights) {
             "out_of_range: wall: a height is beyond the limit of 1000000");
   EXPECT_NE(verdict(R"({"wall":[1,1]})"), "good");
   EXPECT_NE(verdict(R"({"wall":[1,1.00000000001]})"), "good") << "equal as 32-bit floats";
+  EXPECT_NE(verdict(R"({"wall":[0.99999999999,1]})"), "good") << "likewise";
 }
 
 TEST(Settings, TakeSixteenLayersAndNotSeventeen) {
@@ -116,7 +117,7 @@ TEST(Settings, CountNamesInCharacters) {
   for (int i = 0; i < 64; ++i) name += "水";
   EXPECT_TRUE(read_settings({{"layers", {{{"name", name}}}}}));
   EXPECT_FALSE(read_settings({{"layers", {{{"name", name + "a"}}}}}));
-  for (const char* bad : {"a\nb", "\x7f", "\xc2\x85", "\xc2\x9f"})
+  for (const char* bad : {"a\nb", "\x1f", "\x7f", "\xc2\x85", "\xc2\x9f"})
     EXPECT_FALSE(read_settings({{"layers", {{{"name", bad}}}}}));
   EXPECT_TRUE(read_settings({{"layers", {{{"name", "\xc2\xa0"}}}}}));
 }
