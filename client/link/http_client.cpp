@@ -13,6 +13,8 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/write.hpp>
+#include <exception>
+#include <tl/expected.hpp>
 #include <utility>
 
 namespace earthwork::link {
@@ -26,7 +28,7 @@ namespace {
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 using Request = http::request<http::string_body>;
-using Parser = http::response_parser<http::string_body>;
+using Response = http::response<http::string_body>;
 
 Request make_request(const ServerAddress& server, http::verb verb, std::string_view target) {
   Request request(verb, beast::string_view(target.data(), target.size()), 11);
@@ -36,55 +38,59 @@ Request make_request(const ServerAddress& server, http::verb verb, std::string_v
   return request;
 }
 
-/// The error of the first step that failed, if one did; the answer is then in `parser`.
-asio::awaitable<error_code> exchange(const ServerAddress& server, const HttpBounds& bounds,
-                                     Request& request, Parser& parser) {
+/// The answer, or the error of the first step that failed.
+asio::awaitable<tl::expected<Response, error_code>> exchange(ServerAddress server,
+                                                             HttpBounds bounds, Request request) {
   const auto executor = co_await asio::this_coro::executor;
   asio::ip::tcp::resolver resolver(executor);
   const auto [unresolved, found] =
       co_await resolver.async_resolve(server.host, std::to_string(server.port), kAwait);
-  if (unresolved) co_return unresolved;
+  if (unresolved) co_return tl::unexpected(unresolved);
 
   beast::tcp_stream stream(executor);
   stream.expires_after(bounds.timeout);
   const auto [unconnected, endpoint] = co_await stream.async_connect(found, kAwait);
-  if (unconnected) co_return unconnected;
+  if (unconnected) co_return tl::unexpected(unconnected);
   const auto [unsent, written] = co_await http::async_write(stream, request, kAwait);
-  if (unsent) co_return unsent;
+  if (unsent) co_return tl::unexpected(unsent);
 
   beast::flat_buffer buffer;
+  http::response_parser<http::string_body> parser;
+  parser.body_limit(bounds.max_body_bytes);
   while (!parser.is_done()) {
     stream.expires_after(bounds.timeout);
     const auto [unread, bytes] = co_await http::async_read_some(stream, buffer, parser, kAwait);
-    if (unread) co_return unread;
+    if (unread) co_return tl::unexpected(unread);
   }
   error_code ignored;
   stream.socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
-  co_return error_code{};
+  co_return parser.release();
 }
 
 protocol::Result<HttpAnswer> ask(const ServerAddress& server, const HttpBounds& bounds,
                                  Request request) {
-  Parser parser;
-  parser.body_limit(bounds.max_body_bytes);
-  error_code error;
+  tl::expected<Response, error_code> answer;
+  std::exception_ptr thrown;
   asio::io_context context(1);
-  asio::co_spawn(context, exchange(server, bounds, request, parser),
-                 [&](std::exception_ptr, error_code outcome) { error = outcome; });
+  asio::co_spawn(context, exchange(server, bounds, std::move(request)),
+                 [&](std::exception_ptr exception, tl::expected<Response, error_code> outcome) {
+                   thrown = exception;
+                   answer = std::move(outcome);
+                 });
   context.run();
+  if (thrown) std::rethrow_exception(thrown);
 
-  if (error == http::error::body_limit)
+  if (!answer && answer.error() == http::error::body_limit)
     return protocol::fail(protocol::Code::too_large, server.text() + " answers with more than " +
                                                          std::to_string(bounds.max_body_bytes) +
                                                          " bytes");
-  if (error)
+  if (!answer)
     return protocol::fail(protocol::Code::internal,
-                          server.text() + " cannot be reached: " + error.message());
-  auto answer = parser.release();
-  return HttpAnswer{.status = static_cast<int>(answer.result_int()),
-                    .type = std::string(answer[http::field::content_type]),
-                    .etag = std::string(answer[http::field::etag]),
-                    .body = std::move(answer.body())};
+                          server.text() + " cannot be reached: " + answer.error().message());
+  return HttpAnswer{.status = static_cast<int>(answer->result_int()),
+                    .type = std::string((*answer)[http::field::content_type]),
+                    .etag = std::string((*answer)[http::field::etag]),
+                    .body = std::move(answer->body())};
 }
 
 }  // namespace
