@@ -12,6 +12,10 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 }
 void flush_nothing(png_structp) {}
 
+// What goes wrong is told by the result, and not on stderr.
+[[noreturn]] void fail_quietly(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void warn_quietly(png_structp, png_const_charp) {}
+
 /// libpng leaves a failed call by longjmp, so nothing in here has a destructor.
 bool write_all(png_structp png, png_infop info, const room::StatesPicture& picture,
                std::string& out) {
@@ -34,7 +38,8 @@ protocol::Result<std::string> encode_png(const room::StatesPicture& picture) {
   const auto failed = [] {
     return protocol::fail(protocol::Code::internal, "the picture could not be encoded");
   };
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail_quietly, warn_quietly);
   if (!png) return failed();
   // libpng's own limit is a million pixels a side; ours is on the product.
   png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);

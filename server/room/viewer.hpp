@@ -14,10 +14,10 @@ namespace earthwork::room {
 /// viewer sees for the first time, then word that its view is complete. The records are shared,
 /// so a parcel that waits costs two pointers a chunk.
 struct Parcel {
-  std::optional<protocol::GroupBegin> group;
-  std::vector<RecordBytes> group_records;  ///< Empty without a group.
-  std::vector<RecordBytes> first_seen;
-  std::optional<protocol::CaughtUp> caught_up;
+  std::optional<protocol::GroupBegin> group{};
+  std::vector<RecordBytes> group_records{};  ///< Empty without a group.
+  std::vector<RecordBytes> first_seen{};
+  std::optional<protocol::CaughtUp> caught_up{};
 
   [[nodiscard]] bool empty() const { return !group && first_seen.empty() && !caught_up; }
 };

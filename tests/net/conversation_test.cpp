@@ -1,0 +1,291 @@
+// What is said in a session: every state, every message, every refusal; without a socket.
+#include "server/net/conversation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "server/room/manual_strand.hpp"
+
+namespace earthwork::net {
+namespace {
+
+using protocol::Code;
+using room::ManualStrand;
+
+struct Talk {
+  explicit Talk(room::Atlas& maps) : atlas(maps) {
+    auto own = std::make_unique<ManualStrand>();
+    strand = own.get();
+    conversation = std::make_shared<Conversation>(atlas, std::move(own), [this] { ++wakes; });
+  }
+  ~Talk() { conversation->abandon(), run(); }
+
+  void run() {
+    for (int ran = 1; ran > 0;) {
+      ran = strand->run();
+      for (const auto& room : atlas.list()) ran += static_cast<ManualStrand&>(room->strand()).run();
+    }
+  }
+  /// Sends a message, and gives back all text that comes of it; binary is counted.
+  std::vector<protocol::ServerMessage> say(const std::string& text) {
+    conversation->receive(text);
+    return hear();
+  }
+  std::vector<protocol::ServerMessage> hear() {
+    std::vector<protocol::ServerMessage> heard;
+    for (run();; run()) {
+      const auto message = conversation->next_message();
+      if (!message) return heard;
+      if (message->kind == Kind::binary)
+        ++binary;
+      else
+        heard.push_back(protocol::parse_server_message(message->bytes).value());
+      conversation->sent(*message);
+    }
+  }
+  /// The one answer, which has to be a T.
+  template <class T>
+  T one(const std::string& text) {
+    const auto heard = say(text);
+    EXPECT_EQ(heard.size(), 1u) << text;
+    return std::get<T>(heard.at(0));
+  }
+  void refused(const std::string& text, Code code, std::optional<protocol::MessageId> id) {
+    const auto rejected = one<protocol::Rejected>(text);
+    EXPECT_EQ(rejected.failure.code, code) << text;
+    EXPECT_EQ(rejected.id, id) << text;
+  }
+
+  room::Atlas& atlas;
+  ManualStrand* strand = nullptr;
+  std::shared_ptr<Conversation> conversation;
+  int wakes = 0, binary = 0;
+};
+
+const std::string kHello = R"({"type":"hello","protocol":[1,1],"name":"ann","id":1})";
+const std::string kJoin = R"({"type":"join","map":"m","id":2})";
+const std::string kEdit =
+    R"({"type":"edit","id":4,"stencil":"circle","fill":true,"x":5,"y":5,"radius":3})";
+
+struct ConversationTest : testing::Test {
+  ConversationTest() { EXPECT_TRUE(atlas.create("m", {})); }
+  room::Atlas atlas{[] { return std::make_unique<ManualStrand>(); }};
+  Talk talk{atlas};
+};
+
+TEST_F(ConversationTest, StartsWithHello) {
+  EXPECT_FALSE(talk.conversation->greeted());
+  const auto welcome = talk.one<protocol::Welcome>(kHello);
+  EXPECT_EQ(welcome.id, 1);
+  EXPECT_EQ(welcome.key.size(), 32u);
+  EXPECT_EQ(welcome.session.size(), 16u);
+  EXPECT_TRUE(talk.conversation->greeted());
+}
+
+TEST_F(ConversationTest, NothingElseIsHeardBefore) {
+  talk.refused(kJoin, Code::bad_state, 2);
+  talk.refused(R"({"type":"ping"})", Code::bad_state, {});
+  EXPECT_FALSE(talk.conversation->ending());
+  talk.one<protocol::Welcome>(kHello);
+  talk.refused(kHello, Code::bad_state, 1);
+}
+
+TEST_F(ConversationTest, AKeyIsKept) {
+  const std::string key = "00112233445566778899aabbccddeeff";
+  const auto welcome = talk.one<protocol::Welcome>(
+      R"({"type":"hello","protocol":[1,9],"name":"ann","key":")" + key + "\"}");
+  EXPECT_EQ(welcome.key, key);
+}
+
+TEST_F(ConversationTest, WithoutACommonVersionItEnds) {
+  const auto bye = talk.one<protocol::Bye>(R"({"type":"hello","protocol":[2,3],"name":"ann"})");
+  EXPECT_EQ(bye.failure.code, Code::bad_version);
+  EXPECT_TRUE(talk.conversation->ended());
+  EXPECT_TRUE(talk.say(kHello).empty());
+}
+
+TEST_F(ConversationTest, JoinTellsOfTheMap) {
+  talk.one<protocol::Welcome>(kHello);
+  const auto joined = talk.one<protocol::Joined>(kJoin);
+  EXPECT_EQ(joined.id, 2);
+  EXPECT_EQ(joined.map, "m");
+  EXPECT_EQ(joined.epoch, protocol::hex(atlas.find("m")->epoch()));
+  ASSERT_EQ(joined.users.size(), 1u);
+  EXPECT_EQ(joined.users[0].name, "ann");
+  EXPECT_EQ(joined.users[0].color.size(), 7u);
+}
+
+TEST_F(ConversationTest, JoinIsRefusedWhereItCannotBe) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.refused(R"({"type":"join","map":"nowhere","id":2})", Code::unknown_map, 2);
+  talk.refused(R"({"type":"join","map":"m","seq":3,"id":3})", Code::not_supported, 3);
+  talk.one<protocol::Joined>(kJoin);
+  talk.refused(R"({"type":"join","map":"m","id":9})", Code::bad_state, 9);
+}
+
+TEST_F(ConversationTest, OutsideAMapThereIsNothingToSeeOrDo) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.refused(kEdit, Code::bad_state, 4);
+  talk.refused(R"({"type":"view","n":1,"all":true,"id":5})", Code::bad_state, 5);
+  talk.refused(R"({"type":"leave","id":6})", Code::bad_state, 6);
+}
+
+TEST_F(ConversationTest, EditsAreAppliedOrRejected) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  EXPECT_EQ(talk.one<protocol::Applied>(kEdit), (protocol::Applied{4, 1}));
+  const auto rejected = talk.one<protocol::Rejected>(
+      R"({"type":"edit","id":5,"stencil":"circle","fill":true,"x":5,"y":5,"radius":600})");
+  EXPECT_EQ(rejected.id, 5);
+  EXPECT_EQ(rejected.failure.field, "radius");
+  EXPECT_EQ(atlas.find("m")->info().seq, 1u);
+}
+
+TEST_F(ConversationTest, AnEditKeepsItsAuthorsKeyOutOfTheLog) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.one<protocol::Applied>(kEdit);
+  Talk other(atlas);
+  other.one<protocol::Welcome>(kHello);
+  other.one<protocol::Joined>(kJoin);
+  other.one<protocol::Applied>(kEdit);
+  const auto events = atlas.find("m")->events();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_NE(events[0].author, events[1].author);
+}
+
+TEST_F(ConversationTest, AViewIsDoneAndThenCaughtUp) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.one<protocol::Applied>(kEdit);
+  const auto heard = talk.say(R"({"type":"view","n":7,"all":true,"id":8})");
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(std::get<protocol::Done>(heard[0]).id, 8);
+  EXPECT_EQ(std::get<protocol::CaughtUp>(heard[1]), (protocol::CaughtUp{7, 1}));
+  EXPECT_EQ(talk.binary, 1);
+  // A parcel was taken, so the next one comes.
+  talk.say(R"({"type":"edit","id":9,"stencil":"square","fill":true,"x":90,"y":5,"radius":3})");
+  EXPECT_EQ(talk.binary, 4);
+}
+
+TEST_F(ConversationTest, AViewThatIsTooLargeIsRefused) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  const auto rejected =
+      talk.one<protocol::Rejected>(R"({"type":"view","n":7,"rect":[0,0,1e6,1e6],"id":8})");
+  EXPECT_EQ(rejected.id, 8);
+  EXPECT_EQ(rejected.failure.field, "rect");
+}
+
+TEST_F(ConversationTest, LeavingAndJoiningAgain) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  EXPECT_EQ(talk.one<protocol::Done>(R"({"type":"leave","id":3})").id, 3);
+  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  talk.refused(kEdit, Code::bad_state, 4);
+  talk.one<protocol::Joined>(R"({"type":"join","map":"m","id":5})");
+  EXPECT_EQ(atlas.find("m")->info().users, 1u);
+}
+
+TEST_F(ConversationTest, PingIsDone) {
+  talk.one<protocol::Welcome>(kHello);
+  EXPECT_EQ(talk.one<protocol::Done>(R"({"type":"ping","id":77})").id, 77);
+  EXPECT_TRUE(talk.say(R"({"type":"ping"})").empty());
+}
+
+TEST_F(ConversationTest, WhatIsNotOfferedYetIsSaidSo) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.refused(R"({"type":"undo","id":3})", Code::not_supported, 3);
+  talk.refused(R"({"type":"redo","id":4})", Code::not_supported, 4);
+  talk.refused(R"({"type":"events","from_seq":1,"id":5})", Code::not_supported, 5);
+  talk.refused(R"({"type":"cursor","x":1,"y":2})", Code::not_supported, {});
+}
+
+TEST_F(ConversationTest, WhatCannotBeReadIsRejectedWithItsId) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.refused("nonsense", Code::bad_json, {});
+  talk.refused("", Code::bad_json, {});
+  talk.refused(R"({"type":"edit","id":12,"stencil":"star"})", Code::bad_field, 12);
+  talk.refused(R"({"type":"dance","id":13})", Code::bad_message, 13);
+}
+
+TEST_F(ConversationTest, BinaryIsRefused) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.conversation->refuse_binary();
+  const auto heard = talk.hear();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(std::get<protocol::Rejected>(heard[0]).failure.code, Code::bad_message);
+}
+
+TEST_F(ConversationTest, IsNotReadWhileAJoinIsUnderWay) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.conversation->receive(kJoin);
+  EXPECT_FALSE(talk.conversation->may_read());
+  talk.hear();
+  EXPECT_TRUE(talk.conversation->may_read());
+}
+
+TEST_F(ConversationTest, IsNotReadWhileTooMuchIsUnanswered) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  for (int i = 0; i < kMaxUnanswered; ++i) {
+    EXPECT_TRUE(talk.conversation->may_read()) << i;
+    talk.conversation->receive(kEdit);
+  }
+  EXPECT_FALSE(talk.conversation->may_read());
+  const int wakes = talk.wakes;
+  EXPECT_EQ(talk.hear().size(), 64u);
+  EXPECT_TRUE(talk.conversation->may_read());
+  EXPECT_GT(talk.wakes, wakes);
+}
+
+TEST_F(ConversationTest, IsNotReadWhileItDoesNotRead) {
+  talk.one<protocol::Welcome>(kHello);
+  int pings = 0;
+  for (; talk.conversation->may_read(); ++pings)
+    talk.conversation->receive(R"({"type":"ping","id":1})");
+  EXPECT_GT(pings, 1000);
+  EXPECT_LT(pings, 10'000);
+  talk.hear();
+  EXPECT_TRUE(talk.conversation->may_read());
+}
+
+TEST_F(ConversationTest, SaysByeWhenTheMapIsDeleted) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  const auto room = atlas.find("m");
+  ASSERT_TRUE(atlas.erase("m"));
+  static_cast<ManualStrand&>(room->strand()).run();
+  const auto heard = talk.hear();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(std::get<protocol::Bye>(heard[0]).failure.code, Code::unknown_map);
+  EXPECT_TRUE(talk.conversation->ended());
+}
+
+TEST_F(ConversationTest, AMapThatIsDeletedDuringTheJoinIsUnknown) {
+  talk.one<protocol::Welcome>(kHello);
+  const auto room = atlas.find("m");
+  room->close({{Code::unknown_map, "gone", "map"}, {}});
+  talk.refused(kJoin, Code::unknown_map, 2);
+}
+
+TEST_F(ConversationTest, AbandonedItLeavesTheRoomAndWakesNobody) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.conversation->receive(kEdit);
+  const int wakes = talk.wakes;
+  talk.conversation->abandon();
+  talk.run();
+  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  EXPECT_EQ(talk.wakes, wakes);
+}
+
+TEST_F(ConversationTest, AbandonedDuringTheJoinItLeavesTheRoomToo) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.conversation->receive(kJoin);
+  talk.conversation->abandon();
+  talk.run();
+  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+}
+
+}  // namespace
+}  // namespace earthwork::net
