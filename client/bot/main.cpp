@@ -1,0 +1,127 @@
+// earthwork-bot: the command line. Each subcommand is a file of its own.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <string>
+
+#include "client/bot/run_command.hpp"
+#include "client/bot/trace_command.hpp"
+#include "client/bot/watch_command.hpp"
+
+namespace {
+
+using namespace earthwork::bot;
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 the work failed, was cut short or was refused in part, 2 wrong usage "
+    "or nothing to talk to.";
+constexpr double kMaxSeconds = 1e9, kMaxRate = 1e9;
+constexpr std::size_t kMaxWindow = 4096;
+
+template <class Options>
+void add_target(CLI::App& command, Options& options) {
+  command.add_option("--server", options.server, "The server, http://HOST:PORT")->required();
+  command.add_option("--map", options.map, "The map's name")->required();
+}
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App& run = *app.add_subcommand("run", "Sends the edits of a script in order");
+  run.add_option("SCRIPT", options.script, "JSON lines: the map's settings, then edits")
+      ->required();
+  add_target(run, options);
+  run.add_flag("--create", options.create,
+               "Make the map with the script's settings; one that exists is used when its settings "
+               "are equal, and refused otherwise");
+  run.add_option("--window", options.window, "Edits without an answer, at most")
+      ->check(CLI::Range(std::size_t{1}, kMaxWindow))
+      ->capture_default_str();
+  run.add_option("--rate", options.rate, "Edits a second, at most")
+      ->check(CLI::Range(1e-3, kMaxRate));
+  run.footer(std::string("Prints one line, also when interrupted or when the server goes away: "
+                         "{\"edits\" sent, \"acked\", \"rejected\", \"seconds\", \"ack_p50_ms\", "
+                         "\"ack_p99_ms\", \"seq\"}. {\"wait_ms\":N} in a script sends nothing for "
+                         "so long.\n") +
+             kExitCodes);
+}
+
+void add_trace(CLI::App& app, TraceOptions& options, bool& invert) {
+  CLI::App& trace = *app.add_subcommand("trace", "Paints a picture, one voxel a pixel");
+  trace.add_option("IMAGE", options.image, "A PNG file of up to 2^26 pixels")->required();
+  add_target(trace, options);
+  trace.add_flag("--create", options.create,
+                 "Make a map just large enough; one that exists is used when its settings are "
+                 "equal, and refused otherwise");
+  trace
+      .add_option("--threshold", options.threshold,
+                  "Pixels of a grey below it are filled; transparent ones are laid over white")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  trace.add_flag("--invert", invert, "Fill the other pixels instead");
+  trace.add_option("--resolution", options.resolution, "Voxels along a chunk of a map made here")
+      ->check(CLI::IsMember({8, 16, 32, 64}))
+      ->capture_default_str();
+  trace.footer(
+      std::string("The lower left pixel is voxel (0, 0) of layer 0, the top row is up. Where the "
+                  "map is not new, the ground under the picture is emptied first. Prints the line "
+                  "of run, with \"stamps\" and \"pixels\".\n") +
+      kExitCodes);
+}
+
+void add_watch(CLI::App& app, WatchCommandOptions& options) {
+  CLI::App& watch =
+      *app.add_subcommand("watch", "Builds the mesh of all of a map from frames alone");
+  add_target(watch, options);
+  watch.add_option("--until-seq", options.until_seq, "End once this event is shown");
+  watch.add_option("--seconds", options.seconds, "End after so long")
+      ->check(CLI::Range(0.0, kMaxSeconds));
+  watch.add_option("--glb", options.glb, "Write the mesh to this file, as glTF");
+  watch.footer(
+      std::string(
+          "Without --until-seq and --seconds it ends once it has all of the map; with both, "
+          "at whichever comes first. Prints one line: {\"seq\", \"frames\", \"bytes\", "
+          "\"chunks\", \"mesh_hash\"}.\n") +
+      kExitCodes);
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Paints maps on an Earthwork server, and watches them.", "earthwork-bot");
+  app.set_version_flag("--version", std::string("earthwork-bot ") + EARTHWORK_VERSION);
+  app.require_subcommand(0, 1);
+  app.footer(kExitCodes);
+  RunOptions run;
+  TraceOptions trace;
+  WatchCommandOptions watch;
+  bool invert = false;
+  add_run(app, run);
+  add_trace(app, trace, invert);
+  add_watch(app, watch);
+  for (CLI::App* command : app.get_subcommands({}))
+    command->set_version_flag("--version", std::string("earthwork-bot ") + EARTHWORK_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);
+    std::cerr << "earthwork-bot: " << error.what() << " (--help tells more)\n";
+    return kUsage;
+  }
+  if (app.get_subcommands().empty()) {
+    std::cerr << "earthwork-bot: run, trace or watch? (--help tells more)\n";
+    return kUsage;
+  }
+  if (app.got_subcommand("run")) return run_command(run, std::cout, std::cerr);
+  if (app.got_subcommand("watch")) return watch_command(watch, std::cout, std::cerr);
+  trace.ink = invert ? Ink::light : Ink::dark;
+  return trace_command(trace, std::cout, std::cerr);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "earthwork-bot: " << error.what() << '\n';
+    return kFailed;
+  }
+}

@@ -1,0 +1,35 @@
+/// Watches a map: the meshes of all of it, from received frames alone.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "client/link/link.hpp"
+#include "client/scene/scene.hpp"
+#include "protocol/settings.hpp"
+
+namespace earthwork::bot {
+
+struct WatchOptions {
+  link::ServerAddress server;
+  std::string map;
+  std::optional<std::uint64_t> until_seq;              ///< Ends once all meshes show this event.
+  std::optional<std::chrono::nanoseconds> time_limit;  ///< From the answer to the join.
+};
+
+struct WatchReport {
+  scene::Scene scene;
+  protocol::MapSettings settings;
+  bool complete = false;                ///< All of the map was there, as of until_seq or later.
+  std::optional<link::Closing> broken;  ///< Why the connection ended, unless it was to end.
+};
+
+/// Ends when all of the map is there, as of `until_seq` where it is given; a time limit alone ends
+/// nothing early. Also ends on SIGINT and SIGTERM. What goes wrong is told on `log`, a line each.
+/// Blocks; a loop of its own.
+[[nodiscard]] WatchReport watch(const WatchOptions& options, std::ostream& log);
+
+}  // namespace earthwork::bot
