@@ -1,0 +1,78 @@
+// The programs of this build, run as a user would run them.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/link/server_address.hpp"
+
+namespace earthwork::e2e {
+
+struct Outcome {
+  int exit_code = 0;  ///< 128 + its number when a signal ended the program.
+  std::string out, err;
+};
+
+/// A program that runs, in a folder for its output; killed when it goes out of scope.
+class Program {
+ public:
+  /// `name` is a file in the build's bin folder.
+  Program(const std::string& name, const std::vector<std::string>& arguments);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+
+  void signal(int number) const;
+  /// What was printed so far.
+  std::string out() const;
+  /// Waits for its end, at most a minute; a program that takes longer is killed.
+  Outcome wait();
+
+ private:
+  bool ended(int flags);
+
+  std::filesystem::path folder_;
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+};
+
+/// earthwork-bot with these arguments, from start to end.
+Outcome bot(const std::vector<std::string>& arguments);
+
+/// `earthwork-server serve --memory` on a free port, until it goes out of scope.
+class ServerProgram {
+ public:
+  /// Returns once it listens; throws when it does not.
+  ServerProgram();
+  const link::ServerAddress& address() const { return address_; }
+  std::string url() const { return address_.text(); }
+  /// Asks it to end, as SIGTERM does.
+  void ask_to_end() const;
+  /// Waits for its end.
+  Outcome wait() { return program_.wait(); }
+
+ private:
+  Program program_;
+  link::ServerAddress address_;
+};
+
+/// A folder that goes with it.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::string& path);
+
+}  // namespace earthwork::e2e
