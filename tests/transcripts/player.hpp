@@ -1,0 +1,17 @@
+// Plays a transcript against a server of its own.
+#pragma once
+
+#include <string>
+
+#include "tests/transcripts/transcript.hpp"
+
+namespace earthwork::transcripts {
+
+/// Starts earthwork-server and gives back an empty text when every client received exactly the
+/// lines of the transcript, or else what differs.
+std::string play(const Transcript& transcript);
+
+/// The transcript with what the clients receive now.
+Transcript record(const Transcript& transcript);
+
+}  // namespace earthwork::transcripts
