@@ -6,14 +6,13 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
-#include "server/room/manual_strand.hpp"
+#include "server/room/manual_context.hpp"
 #include "tests/net/figure_names.hpp"
 
 namespace earthwork::net {
 namespace {
 
 using nlohmann::json;
-using room::ManualStrand;
 
 struct ApiTest : testing::Test {
   HttpRequest request(const char* method, const std::string& target, std::string body = {}) {
@@ -31,7 +30,7 @@ struct ApiTest : testing::Test {
     auto promise = std::make_shared<std::promise<HttpResponse>>();
     auto answer = promise->get_future();
     api.handle(std::move(asked), [promise](HttpResponse r) { promise->set_value(std::move(r)); });
-    for (const auto& room : atlas.list()) static_cast<ManualStrand&>(room->strand()).run();
+    context.run();
     if (answer.wait_for(std::chrono::seconds(20)) != std::future_status::ready)
       throw std::runtime_error("no answer");
     return answer.get();
@@ -47,7 +46,7 @@ struct ApiTest : testing::Test {
     const auto room = atlas.find(map);
     const auto viewer = room->join(std::make_shared<Blind>(), {}).value().viewer;
     for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {1, 0, edit}));
-    static_cast<ManualStrand&>(room->strand()).run();
+    context.run();
     room->leave(viewer);
   }
   static std::string header(const HttpResponse& response, const std::string& name) {
@@ -63,7 +62,8 @@ struct ApiTest : testing::Test {
     EXPECT_TRUE(body.at("detail").is_string());
   }
 
-  room::Atlas atlas{[] { return std::make_unique<ManualStrand>(); }};
+  room::ManualContext context;
+  room::Atlas atlas{[this] { return context.make_strand(); }};
   Workers workers{1};
   Api api{atlas, workers, Access({"127.0.0.1", 8080}, {})};
 };

@@ -3,28 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include "server/room/manual_strand.hpp"
+#include "server/room/manual_context.hpp"
 
 namespace earthwork::net {
 namespace {
 
 using protocol::Code;
-using room::ManualStrand;
 
 struct Talk {
-  explicit Talk(room::Atlas& maps) : atlas(maps) {
-    auto own = std::make_unique<ManualStrand>();
-    strand = own.get();
-    conversation = std::make_shared<Conversation>(atlas, std::move(own), [this] { ++wakes; });
-  }
-  ~Talk() { conversation->abandon(), run(); }
+  Talk(room::Atlas& atlas, room::ManualContext& manual)
+      : context(manual),
+        conversation(
+            std::make_shared<Conversation>(atlas, context.make_strand(), [this] { ++wakes; })) {}
+  ~Talk() { conversation->abandon(), context.run(); }
 
-  void run() {
-    for (int ran = 1; ran > 0;) {
-      ran = strand->run();
-      for (const auto& room : atlas.list()) ran += static_cast<ManualStrand&>(room->strand()).run();
-    }
-  }
   /// Sends a message, and gives back all text that comes of it; binary is counted.
   std::vector<protocol::ServerMessage> say(const std::string& text) {
     conversation->receive(text);
@@ -32,7 +24,7 @@ struct Talk {
   }
   std::vector<protocol::ServerMessage> hear() {
     std::vector<protocol::ServerMessage> heard;
-    for (run();; run()) {
+    for (context.run();; context.run()) {
       const auto message = conversation->next_message();
       if (!message) return heard;
       if (message->kind == Kind::binary)
@@ -55,8 +47,7 @@ struct Talk {
     EXPECT_EQ(rejected.id, id) << text;
   }
 
-  room::Atlas& atlas;
-  ManualStrand* strand = nullptr;
+  room::ManualContext& context;
   std::shared_ptr<Conversation> conversation;
   int wakes = 0, binary = 0;
 };
@@ -68,8 +59,9 @@ const std::string kEdit =
 
 struct ConversationTest : testing::Test {
   ConversationTest() { EXPECT_TRUE(atlas.create("m", {})); }
-  room::Atlas atlas{[] { return std::make_unique<ManualStrand>(); }};
-  Talk talk{atlas};
+  room::ManualContext context;
+  room::Atlas atlas{[this] { return context.make_strand(); }};
+  Talk talk{atlas, context};
 };
 
 TEST_F(ConversationTest, StartsWithHello) {
@@ -144,7 +136,7 @@ TEST_F(ConversationTest, AnEditKeepsItsAuthorsKeyOutOfTheLog) {
   talk.one<protocol::Welcome>(kHello);
   talk.one<protocol::Joined>(kJoin);
   talk.one<protocol::Applied>(kEdit);
-  Talk other(atlas);
+  Talk other(atlas, context);
   other.one<protocol::Welcome>(kHello);
   other.one<protocol::Joined>(kJoin);
   other.one<protocol::Applied>(kEdit);
@@ -252,9 +244,8 @@ TEST_F(ConversationTest, IsNotReadWhileItDoesNotRead) {
 TEST_F(ConversationTest, SaysByeWhenTheMapIsDeleted) {
   talk.one<protocol::Welcome>(kHello);
   talk.one<protocol::Joined>(kJoin);
-  const auto room = atlas.find("m");
   ASSERT_TRUE(atlas.erase("m"));
-  static_cast<ManualStrand&>(room->strand()).run();
+  context.run();
   const auto heard = talk.hear();
   ASSERT_EQ(heard.size(), 1u);
   EXPECT_EQ(std::get<protocol::Bye>(heard[0]).failure.code, Code::unknown_map);
@@ -274,7 +265,7 @@ TEST_F(ConversationTest, AbandonedItLeavesTheRoomAndWakesNobody) {
   talk.conversation->receive(kEdit);
   const int wakes = talk.wakes;
   talk.conversation->abandon();
-  talk.run();
+  context.run();
   EXPECT_EQ(atlas.find("m")->info().users, 0u);
   EXPECT_EQ(talk.wakes, wakes);
 }
@@ -283,7 +274,7 @@ TEST_F(ConversationTest, AbandonedDuringTheJoinItLeavesTheRoomToo) {
   talk.one<protocol::Welcome>(kHello);
   talk.conversation->receive(kJoin);
   talk.conversation->abandon();
-  talk.run();
+  context.run();
   EXPECT_EQ(atlas.find("m")->info().users, 0u);
 }
 

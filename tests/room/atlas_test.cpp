@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "server/room/manual_strand.hpp"
+#include "server/room/manual_context.hpp"
 #include "tests/room/onlooker.hpp"
 
 namespace earthwork::room {
@@ -11,12 +11,12 @@ namespace {
 
 using protocol::Code;
 
-Atlas empty_atlas() {
-  return Atlas([] { return std::make_unique<ManualStrand>(); });
-}
+struct AtlasTest : testing::Test {
+  ManualContext context;
+  Atlas atlas{[this] { return context.make_strand(); }};
+};
 
-TEST(Atlas, MakesAndFindsMaps) {
-  Atlas atlas = empty_atlas();
+TEST_F(AtlasTest, MakesAndFindsMaps) {
   const auto made = atlas.create("a-1_b", {.chunk_resolution = 16, .chunks = {}});
   ASSERT_TRUE(made);
   EXPECT_EQ(atlas.find("a-1_b"), *made);
@@ -24,13 +24,11 @@ TEST(Atlas, MakesAndFindsMaps) {
   EXPECT_EQ(atlas.find("a-1"), nullptr);
 }
 
-TEST(Atlas, GivesEveryMapAnEpochOfItsOwn) {
-  Atlas atlas = empty_atlas();
+TEST_F(AtlasTest, GivesEveryMapAnEpochOfItsOwn) {
   EXPECT_NE(atlas.create("a", {}).value()->epoch(), atlas.create("b", {}).value()->epoch());
 }
 
-TEST(Atlas, RefusesAKnownNameAndABadOne) {
-  Atlas atlas = empty_atlas();
+TEST_F(AtlasTest, RefusesAKnownNameAndABadOne) {
   ASSERT_TRUE(atlas.create("a", {}));
   EXPECT_EQ(atlas.create("a", {}).error().code, Code::map_exists);
   EXPECT_EQ(atlas.create("A", {}).error().code, Code::bad_name);
@@ -39,21 +37,19 @@ TEST(Atlas, RefusesAKnownNameAndABadOne) {
   EXPECT_EQ(atlas.create(std::string(65, 'x'), {}).error().code, Code::bad_name);
 }
 
-TEST(Atlas, ListsInOrder) {
-  Atlas atlas = empty_atlas();
+TEST_F(AtlasTest, ListsInOrder) {
   ASSERT_TRUE(atlas.create("b", {}) && atlas.create("a", {}) && atlas.create("c", {}));
   std::string names;
   for (const auto& room : atlas.list()) names += room->name();
   EXPECT_EQ(names, "abc");
 }
 
-TEST(Atlas, SaysByeToTheViewersOfAnErasedMap) {
-  Atlas atlas = empty_atlas();
+TEST_F(AtlasTest, SaysByeToTheViewersOfAnErasedMap) {
   const auto room = atlas.create("a", {}).value();
   const auto eyes = std::make_shared<Onlooker>();
   ASSERT_TRUE(room->join(eyes, {}));
   EXPECT_TRUE(atlas.erase("a"));
-  static_cast<ManualStrand&>(room->strand()).run();
+  context.run();
   ASSERT_TRUE(eyes->bye);
   EXPECT_EQ(eyes->bye->failure.code, Code::unknown_map);
   EXPECT_EQ(atlas.find("a"), nullptr);
@@ -61,8 +57,7 @@ TEST(Atlas, SaysByeToTheViewersOfAnErasedMap) {
   EXPECT_TRUE(atlas.create("a", {}));
 }
 
-TEST(Atlas, HasALimit) {
-  Atlas atlas = empty_atlas();
+TEST_F(AtlasTest, HasALimit) {
   for (std::size_t i = 0; i < kMaxMaps; ++i) ASSERT_TRUE(atlas.create("m" + std::to_string(i), {}));
   EXPECT_EQ(atlas.create("one-more", {}).error().code, Code::too_large);
   ASSERT_TRUE(atlas.erase("m7"));

@@ -18,7 +18,7 @@ struct RoomTest : testing::Test, World {};
 TEST_F(RoomTest, NumbersEditsInTheOrderTheyCome) {
   Guest a = enter(), b = enter();
   ASSERT_TRUE(submit(a, disc(4, 4, 2)) && submit(b, disc(9, 4, 2)) && submit(a, disc(4, 9, 2)));
-  strand->run();
+  context.run();
   EXPECT_EQ(a.eyes->acks, (std::vector<protocol::Applied>{{1, 1}, {2, 3}}));
   EXPECT_EQ(b.eyes->acks, (std::vector<protocol::Applied>{{1, 2}}));
 }
@@ -37,14 +37,14 @@ TEST_F(RoomTest, ARefusedEditTakesNone) {
   const auto refused = submit(a, disc(4, 4, 513));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().field, "radius");
-  strand->run();
+  context.run();
   EXPECT_TRUE(a.eyes->acks.empty());
   EXPECT_EQ(room->info().seq, 0u);
 }
 
 TEST_F(RoomTest, KeepsWhatItAccepted) {
   Guest a = enter();
-  strand->advance(5s);
+  context.advance(5s);
   edit(a, disc(4, 4, 2));
   edit(a, box(20, 4, 3));
   const auto events = room->events();
@@ -76,7 +76,7 @@ TEST_F(RoomTest, TellsWhoIsThere) {
 TEST_F(RoomTest, ShowsNothingWithoutAView) {
   Guest a = enter();
   edit(a, disc(4, 4, 2));
-  strand->advance(1s);
+  context.advance(1s);
   EXPECT_TRUE(a.eyes->parcels.empty());
 }
 
@@ -114,7 +114,7 @@ TEST_F(RoomTest, EditsThatWaitTogetherAreShownOnce) {
   look(a, view_all(1));
   a.eyes->forget_parcels();
   for (int i = 0; i < 20; ++i) ASSERT_TRUE(submit(a, disc(4 + 0.25 * i, 4, 2)));
-  strand->run();
+  context.run();
   EXPECT_EQ(a.eyes->acks.size(), 20u);
   ASSERT_EQ(a.eyes->parcels.size(), 1u);
   EXPECT_EQ(a.eyes->parcels[0].group->seq, 20u);
@@ -151,7 +151,7 @@ TEST_F(RoomTest, AnUnchangedMeshIsNeitherSentNorRevised) {
   a.eyes->forget_parcels();
   // There and back, before anybody looked.
   ASSERT_TRUE(submit(a, box(4.5, 4.5, 0.25, false)) && submit(a, box(4, 4, 3)));
-  strand->run();
+  context.run();
   EXPECT_EQ(a.eyes->grouped(), 0u);
   while (!room->refresh_meshes(10)) {
   }
@@ -180,14 +180,14 @@ TEST_F(RoomTest, SaysHowFarItIsAtMostTenTimesASecond) {
   int groups = 0;
   for (int i = 0; i < 200; ++i) {
     edit(a, disc(4, 4, 2, false));  // nothing is there
-    strand->advance(10ms);
+    context.advance(10ms);
     settle(a);
     groups = static_cast<int>(a.eyes->parcels.size());
   }
   EXPECT_GE(groups, 15);
   EXPECT_LE(groups, 20);
   EXPECT_TRUE(a.eyes->parcels.back().group_records.empty());
-  strand->advance(200ms);
+  context.advance(200ms);
   settle(a);
   EXPECT_EQ(a.eyes->parcels.back().group->seq, 200u);
 }
@@ -196,9 +196,9 @@ TEST_F(RoomTest, IsQuietWhenNothingHappens) {
   Guest a = enter();
   edit(a, disc(4, 4, 2));
   look(a, view_all(1));
-  strand->advance(1s);
+  context.advance(1s);
   const std::size_t before = a.eyes->parcels.size();
-  strand->advance(10s);
+  context.advance(10s);
   EXPECT_EQ(a.eyes->parcels.size(), before);
 }
 
@@ -208,7 +208,7 @@ TEST_F(RoomTest, ALeaverIsToldNothingMore) {
   b.eyes->forget_parcels();
   ASSERT_TRUE(submit(b, disc(4, 4, 2)));
   room->leave(b.id);
-  strand->run();
+  context.run();
   EXPECT_TRUE(b.eyes->acks.empty());
   EXPECT_TRUE(b.eyes->parcels.empty());
   EXPECT_EQ(room->info().seq, 1u);  // what was taken stays
@@ -276,7 +276,7 @@ TEST(Room, KeepsEveryViewerWhole) {
       const bool fill = *rc::gen::weightedElement<bool>({{2, true}, {1, false}});
       const bool square = *rc::gen::arbitrary<bool>();
       RC_ASSERT(world.submit(painter, square ? box(x, y, radius, fill) : disc(x, y, radius, fill)));
-      if (*rc::gen::arbitrary<bool>()) world.strand->run();
+      if (*rc::gen::arbitrary<bool>()) world.context.run();
       if (*rc::gen::inRange(0, 4) == 0) world.room->ready(slow.id);
       world.room->ready(quick.id);
       RC_ASSERT(torn_rim(quick.eyes->chunks, 8) == "");

@@ -9,39 +9,52 @@
 
 #include "server/room/asio_strand.hpp"
 #include "server/room/entropy.hpp"
-#include "server/room/manual_strand.hpp"
+#include "server/room/manual_context.hpp"
 
 namespace earthwork::room {
 namespace {
 
 using namespace std::chrono_literals;
 
-TEST(ManualStrand, RunsTasksInOrderAndThoseTheyPost) {
-  ManualStrand strand;
+TEST(ManualContext, RunsTasksInOrderAndThoseTheyPost) {
+  ManualContext context;
+  const auto strand = context.make_strand(), other = context.make_strand();
   std::vector<int> ran;
-  strand.post([&] {
+  strand->post([&] {
     ran.push_back(1);
-    strand.post([&] { ran.push_back(3); });
+    strand->post([&] { ran.push_back(3); });
   });
-  strand.post([&] { ran.push_back(2); });
+  other->post([&] { ran.push_back(2); });
   EXPECT_TRUE(ran.empty());
-  EXPECT_EQ(strand.run(), 3);
+  EXPECT_EQ(context.run(), 3);
   EXPECT_EQ(ran, (std::vector<int>{1, 2, 3}));
 }
 
-TEST(ManualStrand, LetsTimePassStepByStep) {
-  ManualStrand strand;
+TEST(ManualContext, LetsTimePassStepByStep) {
+  ManualContext context;
+  const auto strand = context.make_strand();
   std::vector<std::int64_t> at;
-  strand.post_after(20ms, [&] { at.push_back(strand.now_ms()); });
-  strand.post_after(10ms, [&] {
-    at.push_back(strand.now_ms());
-    strand.post_after(5ms, [&] { at.push_back(strand.now_ms()); });
+  strand->post_after(20ms, [&] { at.push_back(strand->now_ms()); });
+  strand->post_after(10ms, [&] {
+    at.push_back(strand->now_ms());
+    strand->post_after(5ms, [&] { at.push_back(strand->now_ms()); });
   });
-  strand.advance(19ms);
+  context.advance(19ms);
   EXPECT_EQ(at, (std::vector<std::int64_t>{10, 15}));
-  strand.advance(1ms);
+  context.advance(1ms);
   EXPECT_EQ(at.back(), 20);
-  EXPECT_EQ(strand.now_ms(), 20);
+  EXPECT_EQ(strand->now_ms(), 20);
+}
+
+TEST(ManualContext, LetsGoOfTasksThatNeverRan) {
+  const auto kept = std::make_shared<int>(7);
+  {
+    ManualContext context;
+    context.make_strand()->post([kept] {});
+    context.make_strand()->post_after(1s, [kept] {});
+    EXPECT_EQ(kept.use_count(), 3);
+  }
+  EXPECT_EQ(kept.use_count(), 1);
 }
 
 TEST(AsioStrand, RunsOneTaskAtATimeInOrder) {

@@ -91,7 +91,7 @@ TEST_F(SubscriptionTest, ALoadComesInPartsAndIsCaughtUpOnce) {
 TEST_F(SubscriptionTest, EditsDuringALoadComeAsGroupsAndDoNotStartItAgain) {
   Guest a = enter();
   ASSERT_TRUE(room->look(a.id, view_rect(1, {1, 1, 95, 95})));
-  strand->run();
+  context.run();
   ASSERT_EQ(a.eyes->parcels.size(), 1u);  // of two
   edit(painter, dot(5, 5, false));        // was sent first of all
   edit(painter, dot(0, 0, false));        // was not sent yet
@@ -126,7 +126,7 @@ TEST_F(SubscriptionTest, AMovedViewForgetsTheOld) {
 TEST_F(SubscriptionTest, OwedChunksSurviveAMoveOfTheView) {
   Guest a = enter();
   look(a, view_rect(1, {1, 1, 30, 30}));
-  strand->advance(std::chrono::seconds(1)), settle(a);
+  context.advance(std::chrono::seconds(1)), settle(a);
   edit(painter, dot(2, 2, false));  // takes the parcel
   edit(painter, dot(3, 3, false));  // is owed
   ASSERT_TRUE(room->look(a.id, view_rect(2, {9, 9, 38, 38})));

@@ -13,9 +13,7 @@ void must(const protocol::Result<void>& result) {
 }  // namespace
 
 World::World(protocol::MapSettings settings) {
-  auto own = std::make_unique<ManualStrand>();
-  strand = own.get();
-  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, std::move(own));
+  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, context.make_strand());
 }
 
 World::Guest World::enter(const char* name) {
@@ -35,12 +33,12 @@ protocol::Result<void> World::submit(Guest& guest, protocol::Edit edit) {
 
 void World::edit(Guest& guest, protocol::Edit edit) {
   must(submit(guest, std::move(edit)));
-  strand->run();
+  context.run();
 }
 
 void World::settle(Guest& guest) {
   for (std::size_t taken = SIZE_MAX; taken != guest.eyes->parcels.size();) {
-    strand->run();
+    context.run();
     taken = guest.eyes->parcels.size();
     room->ready(guest.id);
   }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "server/room/manual_strand.hpp"
+#include "server/room/manual_context.hpp"
 #include "server/room/room.hpp"
 #include "tests/room/onlooker.hpp"
 
@@ -30,7 +30,7 @@ struct World {
   /// Of the room, every mesh up to date.
   std::uint64_t mesh_hash();
 
-  ManualStrand* strand = nullptr;
+  ManualContext context;
   std::shared_ptr<Room> room;
 };
 

@@ -1,0 +1,34 @@
+/// Strands without threads: their tasks run when the context's owner says so, and time passes when
+/// told.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+
+#include "server/room/strand.hpp"
+
+namespace earthwork::room {
+
+/// One thread only. Outlives its strands; tasks that never ran end with it.
+class ManualContext {
+ public:
+  /// All strands of a context share one order.
+  [[nodiscard]] std::unique_ptr<Strand> make_strand();
+
+  /// Runs tasks, also those that they post, until none is left. Gives back how many ran.
+  int run();
+  /// Lets time pass, and runs what falls due meanwhile.
+  void advance(std::chrono::milliseconds time);
+  [[nodiscard]] std::chrono::milliseconds now() const { return now_; }
+
+ private:
+  class ManualStrand;
+
+  std::deque<Strand::Task> tasks_;
+  std::multimap<std::chrono::milliseconds, Strand::Task> later_;  // by when they fall due
+  std::chrono::milliseconds now_{0};
+};
+
+}  // namespace earthwork::room
