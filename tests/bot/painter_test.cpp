@@ -1,0 +1,219 @@
+// The painter, against a server that the test plays: windows, refusals, and ends.
+#include "client/bot/painter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "client/bot/paint_report.hpp"
+#include "tests/link/fake_server.hpp"
+
+namespace earthwork::bot {
+namespace {
+
+using link::FakeServer;
+using link::Peer;
+using nlohmann::json;
+
+void greet(Peer& peer) {
+  peer.read();
+  peer.write(R"({"type":"welcome","session":"0123456789abcdef",)"
+             R"("key":"0123456789abcdef0123456789abcdef","protocol":1,"limits":{}})");
+  peer.read();
+  peer.write(R"({"type":"joined","map":"demo","settings":{},"epoch":"00000000000000aa","seq":7,)"
+             R"("users":[]})");
+}
+
+void apply(Peer& peer, int id, int seq) {
+  peer.write(json{{"type", "applied"}, {"id", id}, {"seq", seq}}.dump());
+}
+
+std::vector<protocol::ScriptStep> edits(int count) {
+  protocol::Edit edit;
+  edit.path = {{1, 2}};
+  return std::vector<protocol::ScriptStep>(static_cast<std::size_t>(count), edit);
+}
+
+struct Painting {
+  PaintReport report;
+  std::string log;
+};
+
+Painting run(std::function<void(Peer&)> play, const std::vector<protocol::ScriptStep>& steps,
+             std::size_t window = 64) {
+  const FakeServer server("earthwork.v1", std::move(play));
+  std::ostringstream log;
+  const PaintOptions options{
+      .server = server.address(), .map = "demo", .window = window, .edits_per_second = {}};
+  PaintReport report = paint(options, steps, log);
+  return {std::move(report), log.str()};
+}
+
+TEST(Painter, KeepsToItsWindow) {
+  std::vector<std::string> heard;
+  const Painting painting = run(
+      [&](Peer& peer) {
+        greet(peer);
+        for (int i = 1; i <= 3; ++i) heard.push_back(peer.read());
+        // Three edits wait, so nothing more comes: what is heard next is the fourth, because of
+        // the reply, and then the fifth.
+        for (int i = 1; i <= 2; ++i) {
+          apply(peer, i, 7 + i);
+          heard.push_back(peer.read());
+        }
+        for (int i = 3; i <= 5; ++i) apply(peer, i, 7 + i);
+        heard.push_back(peer.read());
+      },
+      edits(5), 3);
+  ASSERT_EQ(heard.size(), 6u);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(json::parse(heard[static_cast<std::size_t>(i)])["id"], i + 1);
+  EXPECT_EQ(heard[5], "closed 1000");
+  EXPECT_EQ(painting.report.edits, 5u);
+  EXPECT_EQ(painting.report.acked, 5u);
+  EXPECT_EQ(painting.report.seq, 12u);
+  EXPECT_EQ(painting.report.ack_ms.size(), 5u);
+  EXPECT_TRUE(painting.report.finished);
+  EXPECT_EQ(exit_code(painting.report), kDone);
+}
+
+TEST(Painter, CountsRefusalsAndTellsTheFirstTen) {
+  const Painting painting = run(
+      [](Peer& peer) {
+        greet(peer);
+        for (int i = 1; i <= 12; ++i) {
+          peer.read();
+          peer.write(json{{"type", "rejected"},
+                          {"id", i},
+                          {"code", "out_of_range"},
+                          {"message", "radius: too large"}}
+                         .dump());
+        }
+        peer.read();
+      },
+      edits(12));
+  EXPECT_EQ(painting.report.rejected, 12u);
+  EXPECT_EQ(painting.report.acked, 0u);
+  EXPECT_EQ(painting.report.seq, 7u);
+  EXPECT_TRUE(painting.log.starts_with("edit 1 refused: out_of_range: radius: too large\n"));
+  EXPECT_TRUE(
+      painting.log.ends_with("edit 10 refused: out_of_range: radius: too large\n"
+                             "more edits refused\n"));
+  EXPECT_EQ(exit_code(painting.report), kFailed);
+}
+
+TEST(Painter, HasNothingToWaitForInAnEmptyScript) {
+  const Painting painting = run(
+      [](Peer& peer) {
+        greet(peer);
+        EXPECT_EQ(peer.read(), "closed 1000");
+      },
+      {});
+  EXPECT_TRUE(painting.report.finished);
+  EXPECT_EQ(exit_code(painting.report), kDone);
+}
+
+TEST(Painter, IgnoresRepliesToWhatItNeverSent) {
+  const Painting painting = run(
+      [](Peer& peer) {
+        greet(peer);
+        peer.read();
+        apply(peer, 99, 50);
+        apply(peer, 1, 8);
+        apply(peer, 1, 60);
+        peer.read();
+      },
+      edits(1));
+  EXPECT_EQ(painting.report.acked, 1u);
+  EXPECT_EQ(painting.report.seq, 8u);
+}
+
+TEST(Painter, ReportsWhatItHasWhenTheServerGoesAway) {
+  const Painting painting = run(
+      [](Peer& peer) {
+        greet(peer);
+        peer.read();
+        apply(peer, 1, 8);
+        peer.write(R"({"type":"bye","code":"internal","message":"the disk is full"})");
+        peer.close(1011);
+      },
+      edits(3));
+  EXPECT_EQ(painting.report.acked, 1u);
+  EXPECT_FALSE(painting.report.finished);
+  EXPECT_EQ(painting.log, "the disk is full\n");
+  EXPECT_EQ(exit_code(painting.report), kFailed);
+}
+
+TEST(Painter, HasNothingToTalkToWithoutItsMap) {
+  const Painting painting = run(
+      [](Peer& peer) {
+        peer.read();
+        peer.write(R"({"type":"rejected","code":"unknown_map","message":"no such map"})");
+        peer.read();
+      },
+      edits(3));
+  EXPECT_EQ(painting.log, "no such map\n");
+  EXPECT_EQ(painting.report.edits, 0u);
+  EXPECT_EQ(exit_code(painting.report), kUsage);
+}
+
+TEST(Painter, WaitsForTheAnswersThatAreDueAfterASignal) {
+  std::vector<std::string> heard;
+  const Painting painting = run(
+      [&](Peer& peer) {
+        greet(peer);
+        heard.push_back(peer.read());
+        std::raise(SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        apply(peer, 1, 8);
+        heard.push_back(peer.read());
+      },
+      edits(3), 1);
+  EXPECT_TRUE(painting.report.interrupted);
+  EXPECT_EQ(painting.report.edits, 1u);
+  EXPECT_EQ(painting.report.acked, 1u);
+  EXPECT_EQ(heard.back(), "closed 1000");
+  EXPECT_EQ(painting.log, "interrupted\n");
+  EXPECT_EQ(exit_code(painting.report), kFailed);
+}
+
+TEST(Painter, EndsAtASecondSignalWithoutItsAnswers) {
+  const Painting painting = run(
+      [](Peer& peer) {
+        greet(peer);
+        peer.read();
+        std::raise(SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::raise(SIGINT);
+        peer.read();
+      },
+      edits(1));
+  EXPECT_TRUE(painting.report.interrupted);
+  EXPECT_EQ(painting.report.acked, 0u);
+}
+
+TEST(Percentile, IsTheNearestRank) {
+  EXPECT_EQ(percentile({}, 50), std::nullopt);
+  EXPECT_EQ(percentile({3}, 99), 3);
+  EXPECT_EQ(percentile({4, 1, 3, 2}, 50), 2);
+  EXPECT_EQ(percentile({4, 1, 3, 2}, 51), 3);
+  EXPECT_EQ(percentile({4, 1, 3, 2}, 100), 4);
+}
+
+TEST(PaintReport, WritesNoLatencyWhereNothingWasApplied) {
+  PaintReport report;
+  report.edits = 3;
+  report.seq = 9;
+  EXPECT_EQ(write_report(report).dump(),
+            R"({"edits":3,"acked":0,"rejected":0,"seconds":0.0,"ack_p50_ms":null,)"
+            R"("ack_p99_ms":null,"seq":9})");
+  report.ack_ms = {2.0, 1.0};
+  EXPECT_EQ(write_report(report)["ack_p50_ms"], 1.0);
+  EXPECT_EQ(write_report(report)["ack_p99_ms"], 2.0);
+}
+
+}  // namespace
+}  // namespace earthwork::bot
