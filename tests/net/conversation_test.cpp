@@ -230,6 +230,30 @@ TEST_F(ConversationTest, IsNotReadWhileTooMuchIsUnanswered) {
   EXPECT_GT(talk.wakes, wakes);
 }
 
+TEST_F(ConversationTest, RefusalsAreAnswersToo) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  for (int i = 0; i < 2 * kMaxUnanswered; ++i) {
+    ASSERT_TRUE(talk.conversation->may_read()) << i;
+    talk.say(R"({"type":"edit","id":5,"stencil":"circle","fill":true,"x":0,"y":0,"radius":600})");
+    talk.say(R"({"type":"view","n":1,"all":true})");
+  }
+}
+
+TEST_F(ConversationTest, WhatAMapHadSentIsThroughBeforeTheNextOneIsJoined) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.one<protocol::Applied>(kEdit);
+  talk.conversation->receive(R"({"type":"view","n":1,"all":true})");
+  context.run();  // the parcel is here, and not written
+  talk.conversation->receive(R"({"type":"leave","id":3})");
+  context.run();
+  EXPECT_FALSE(talk.conversation->may_read());
+  EXPECT_EQ(talk.hear().size(), 2u);  // done, caught_up
+  EXPECT_EQ(talk.binary, 1);
+  EXPECT_TRUE(talk.conversation->may_read());
+}
+
 TEST_F(ConversationTest, IsNotReadWhileItDoesNotRead) {
   talk.one<protocol::Welcome>(kHello);
   int pings = 0;

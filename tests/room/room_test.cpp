@@ -158,6 +158,31 @@ TEST_F(RoomTest, AnUnchangedMeshIsNeitherSentNorRevised) {
   EXPECT_EQ(decoded(room->meshes().records.at(0)).revision, 1u);
 }
 
+TEST_F(RoomTest, AMeshThatWasSentInAGroupIsNotSentAgain) {
+  Guest a = enter();
+  look(a, view_all(1));
+  edit(a, box(4, 4, 3));
+  settle(a);
+  a.eyes->forget_parcels();
+  ASSERT_TRUE(submit(a, box(4.5, 4.5, 0.25, false)) && submit(a, box(4, 4, 3)));
+  context.run();
+  EXPECT_EQ(a.eyes->grouped(), 0u);
+}
+
+TEST_F(RoomTest, ACrowdOfEditsIsTakenInTurns) {
+  Guest a = enter();
+  look(a, view_all(1));
+  a.eyes->forget_parcels();
+  for (int i = 0; i < 2000; ++i) ASSERT_TRUE(submit(a, disc(4, 4, 2 + 0.001 * i)));
+  settle(a);
+  EXPECT_EQ(a.eyes->acks.size(), 2000u);
+  EXPECT_EQ(a.eyes->acks.back(), (protocol::Applied{2000, 2000}));
+  // One after the first turn, and one for all that followed while it was on its way.
+  ASSERT_EQ(a.eyes->parcels.size(), 2u);
+  EXPECT_LT(a.eyes->parcels[0].group->seq, 2000u);
+  EXPECT_EQ(a.eyes->parcels[1].group->seq, 2000u);
+}
+
 TEST_F(RoomTest, AChunkThatBecameEmptyIsSentAsRemoved) {
   Guest a = enter();
   edit(a, disc(4, 4, 2));

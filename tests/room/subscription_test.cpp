@@ -94,12 +94,13 @@ TEST_F(SubscriptionTest, EditsDuringALoadComeAsGroupsAndDoNotStartItAgain) {
   context.run();
   ASSERT_EQ(a.eyes->parcels.size(), 1u);  // of two
   edit(painter, dot(5, 5, false));        // was sent first of all
-  edit(painter, dot(0, 0, false));        // was not sent yet
+  edit(painter, dot(0, 0, false));        // was not sent yet,
+  edit(painter, disc(93, 93, 2.5));       // nor was this one
   room->ready(a.id);
   const Parcel& second = a.eyes->parcels.at(1);
   EXPECT_EQ(keys(second.group_records), (std::vector<ChunkKey>{{0, 5, 5, 0}}));
   EXPECT_EQ(second.first_seen.size(), 144u - 128u - 1u);
-  EXPECT_EQ(*second.caught_up, (protocol::CaughtUp{1, seq + 2}));
+  EXPECT_EQ(*second.caught_up, (protocol::CaughtUp{1, seq + 3}));
   EXPECT_EQ(a.eyes->mesh_hash(), mesh_hash());
 }
 
@@ -128,10 +129,12 @@ TEST_F(SubscriptionTest, OwedChunksSurviveAMoveOfTheView) {
   look(a, view_rect(1, {1, 1, 30, 30}));
   context.advance(std::chrono::seconds(1)), settle(a);
   edit(painter, dot(2, 2, false));  // takes the parcel
-  edit(painter, dot(3, 3, false));  // is owed
+  edit(painter, dot(3, 3, false));  // is owed,
+  edit(painter, disc(5, 5, 3));     // and this, until the view leaves it
   ASSERT_TRUE(room->look(a.id, view_rect(2, {9, 9, 38, 38})));
   settle(a);
   EXPECT_FALSE(a.eyes->chunks.contains({0, 3, 3, 0}));
+  EXPECT_EQ(keys(a.eyes->parcels.back().group_records), (std::vector<ChunkKey>{{0, 3, 3, 0}}));
 }
 
 TEST_F(SubscriptionTest, ChunksThatAppearInAViewComeInGroups) {
