@@ -38,6 +38,7 @@ class SocketPeer : public Peer {
     if (error) return "closed " + std::to_string(socket_.reason().code);
     return (socket_.got_text() ? "" : "binary ") + beast::buffers_to_string(buffer.data());
   }
+  std::size_t waiting_bytes() override { return socket_.next_layer().available(); }
   void write(const std::string& text) override { send(text, true); }
   void write_binary(const std::string& bytes) override { send(bytes, false); }
   void close(std::uint16_t code) override {

@@ -17,6 +17,8 @@ class Peer {
  public:
   virtual ~Peer() = default;
   virtual std::string read() = 0;
+  /// Bytes that have come and of which nothing was read.
+  virtual std::size_t waiting_bytes() = 0;
   virtual void write(const std::string& text) = 0;
   virtual void write_binary(const std::string& bytes) = 0;
   virtual void close(std::uint16_t code) = 0;
