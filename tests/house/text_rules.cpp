@@ -66,10 +66,12 @@ std::size_t end_of_function(const std::vector<std::string_view>& lines, std::siz
     if (!goes_on || lines[i].ends_with(';') || lines[i].ends_with('}')) return begin;
     ++i;
   }
-  // A statement whose last argument is a lambda ends in "});".
-  while (i < lines.size() &&
-         !(indent_of(lines[i]) == indent && lines[i].substr(indent).starts_with('}')))
-    ++i;
+  for (; i < lines.size(); ++i) {
+    if (lines[i].empty() || indent_of(lines[i]) > indent) continue;
+    // Less indented: this was a statement that ends in a lambda, inside of what ends here.
+    if (indent_of(lines[i]) < indent) return begin;
+    if (lines[i].substr(indent).starts_with('}')) break;
+  }
   return std::min(i + 1, lines.size());
 }
 
