@@ -1,0 +1,232 @@
+// A client that shares no line with the server, against the real one: EARTHWORK_SERVER names it.
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { once } from 'node:events';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
+import { Client } from './client.mjs';
+import { createMap, deleteMap, describeMap, figuresOf } from './maps.mjs';
+import { twiceArea } from './mesh_hash.mjs';
+import { openRims } from './rims.mjs';
+import { startServer } from './server_process.mjs';
+
+const UNIT = 32768;
+const inTime = { timeout: 60_000 };
+let server;
+let url;
+
+before(async () => {
+  server = await startServer();
+  url = server.url;
+});
+after(async () => assert.equal(await server.stop(), 0));
+
+async function join(t, map, who = {}) {
+  const client = await Client.connect(url, who);
+  t.after(() => client.close());
+  await client.join(map);
+  return client;
+}
+
+// Joins and looks; `changes` gathers the records that come.
+async function watch(t, map, rect) {
+  const client = await join(t, map, { name: 'watcher' });
+  const changes = [];
+  client.on('change', (records) => changes.push(...records));
+  await client.view(rect);
+  await client.until(0);
+  return { client, changes };
+}
+
+const places = (records) => records.map(({ x, y }) => `${x},${y}`).sort();
+const square = (x, y, radius = 2, fill = true) => ({ stencil: 'square', fill, x, y, radius });
+
+// The same stamps at every run: circles, squares and paths, filled and emptied, on both layers.
+function stamps(seed, count) {
+  let state = seed;
+  const next = (low, high) => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return low + state / 2 ** 32 * (high - low);
+  };
+  return Array.from({ length: count }, (_, i) => {
+    const [x, y] = [next(-30, 30), next(-30, 30)];
+    const place = i % 3 === 2
+      ? { path: Array.from({ length: 8 }, (_, k) => [x + k * next(0, 1), y + k * next(-1, 1)]) }
+      : { x, y };
+    const stencil = i % 2 === 0 ? 'circle' : 'square';
+    return { stencil, fill: next(0, 1) < 0.7, radius: next(0.1, 5), layer: i % 2, ...place };
+  });
+}
+
+// One edit whose group takes several messages: neighbours come in different ones.
+const speckles = {
+  stencil: 'circle', fill: true, radius: 0.7,
+  path: Array.from({ length: 625 }, (_, i) => [i % 25 * 2.4 - 30, Math.floor(i / 25) * 2.4 - 30]),
+};
+
+// Paints with up to `window` edits unanswered at once. Returns their numbers.
+async function paint(client, edits, window) {
+  const numbers = [];
+  for (let i = 0; i < edits.length; i += window) {
+    numbers.push(...await Promise.all(edits.slice(i, i + window).map((e) => client.edit(e))));
+  }
+  return numbers;
+}
+
+function assertHolds({ scene, joined }, figures) {
+  const chunks = [...scene.chunks.values()];
+  const total = (count) => chunks.reduce((sum, chunk) => sum + count(chunk.mesh), 0);
+  const scale = joined.settings.voxel_size / UNIT;
+  const length = ({ xs, ys, sections }) => sections.reduce(
+    (sum, { start, end }) => sum + Math.hypot(xs[end] - xs[start], ys[end] - ys[start]), 0);
+  const near = (actual, expected, what) =>
+    assert.ok(Math.abs(actual - expected) <= 1e-9 * expected, `${what}: ${actual}, ${expected}`);
+
+  assert.equal(scene.seq, figures.seq);
+  assert.equal(scene.meshHash(), figures.mesh_hash);
+  assert.equal(chunks.length, figures.meshed_chunks);
+  assert.equal(total((mesh) => mesh.indices.length / 3), figures.triangles);
+  assert.equal(total((mesh) => mesh.xs.length), figures.vertices);
+  near(total(twiceArea) / 2 * scale ** 2, figures.surface_area, 'area');
+  near(total(length) * scale, figures.wall_length, 'wall length');
+}
+
+test('two clients paint at once, and a third sees what the server has', inTime, async (t) => {
+  await createMap(url, 'crowd', {
+    chunk_resolution: 16,
+    voxel_size: 0.5,
+    layers: [{ name: 'ground', wall: [-1, 0] }, { name: 'rock', color: '#808080', wall: [0, 2] }],
+  });
+  const { client: watcher } = await watch(t, 'crowd');
+  let groups = 0;
+  watcher.on('change', () => {
+    ++groups;
+    assert.deepEqual(openRims(watcher.scene.chunks.values(), 16), []);
+  });
+  const painters = [await join(t, 'crowd'), await join(t, 'crowd')];
+
+  const numbers = await Promise.all(
+    painters.map((painter, i) => paint(painter, [...stamps(i, 149), speckles], 1 + 15 * i)));
+
+  for (const own of numbers) assert.deepEqual(own, [...own].sort((a, b) => a - b));
+  const all = numbers.flat().sort((a, b) => a - b);
+  assert.deepEqual(all, Array.from({ length: 300 }, (_, i) => i + 1));
+  await watcher.until(300);
+  assertHolds(watcher, await figuresOf(url, 'crowd'));
+  assert.ok(groups > 10, `${groups} groups`);
+  const chunks = [...watcher.scene.chunks.values()];
+  assert.ok(chunks.length > 100, `${chunks.length} chunks`);
+  assert.notDeepEqual(openRims(chunks.slice(1), 16), []);  // without one, they do come apart
+
+  const { client: late } = await watch(t, 'crowd');
+  assert.equal(late.scene.meshHash(), watcher.scene.meshHash());
+});
+
+test('a square has the area and the walls of a square', inTime, async (t) => {
+  await createMap(url, 'square');
+  const { client } = await watch(t, 'square');
+  await client.until(await client.edit(square(16, 16, 8)));
+  assertHolds(client, await figuresOf(url, 'square'));
+  const [{ mesh }] = client.scene.chunks.values();
+  assert.equal(twiceArea(mesh) / 2 / UNIT ** 2, 256);
+  assert.equal((await describeMap(url, 'square')).users, 1);
+});
+
+test('a chunk that became empty is removed', inTime, async (t) => {
+  await createMap(url, 'emptied', { chunk_resolution: 8 });
+  const { client, changes } = await watch(t, 'emptied');
+  await client.until(await client.edit(square(4, 4)));
+  assert.equal(client.scene.chunks.size, 1);
+  await client.until(await client.edit(square(4, 4, 3, false)));
+  assert.equal(client.scene.chunks.size, 0);
+  assert.deepEqual(changes.map(({ revision }) => revision), [1, 2]);
+  assert.deepEqual(changes.map(({ mesh }) => mesh !== undefined), [true, false]);
+  assertHolds(client, await figuresOf(url, 'emptied'));
+});
+
+test('a refused edit names what is wrong, and takes no number', inTime, async (t) => {
+  await createMap(url, 'refused');
+  const client = await join(t, 'refused');
+  const refuses = (edit, code, field) =>
+    assert.rejects(client.edit(edit), (error) => {
+      assert.deepEqual([error.code, error.field], [code, field]);
+      assert.ok(error.message.startsWith(field), error.message);
+      return true;
+    });
+  await refuses(square(0, 0, 513), 'out_of_range', 'radius');
+  await refuses(square(1e308, 0), 'out_of_range', 'x');
+  await refuses({ ...square(0, 0), layer: 1 }, 'out_of_range', 'layer');
+  await refuses({ ...square(0, 0), fill: 1 }, 'bad_field', 'fill');
+  await refuses({ ...square(0, 0), stencil: 'star' }, 'bad_field', 'stencil');
+  await refuses({ ...square(), path: [] }, 'out_of_range', 'path');
+  assert.equal(await client.edit(square(0, 0)), 1);
+});
+
+test('a view receives only its chunks, and a moved one those that are new', inTime, async (t) => {
+  await createMap(url, 'row', { chunk_resolution: 8 });
+  const painter = await join(t, 'row');
+  await painter.edit({ ...square(), path: [[4, 4], [20, 4], [36, 4], [52, 4], [4, 60]] });
+  const part = await watch(t, 'row', [18, 2, 40, 6]);
+  assert.deepEqual(places(part.changes), ['2,0', '4,0']);
+
+  await part.client.until(await painter.edit(square(4, 60, 3)));
+  await part.client.until(await painter.edit(square(36, 4, 3)));
+  assert.deepEqual(places(part.changes.splice(0)), ['2,0', '4,0', '4,0']);
+
+  await part.client.view([34, 2, 54, 6]);
+  await part.client.until(3);
+  assert.deepEqual(places(part.changes), ['6,0']);
+  assert.deepEqual(places([...part.client.scene.chunks.values()]), ['4,0', '6,0']);
+
+  const { client: all } = await watch(t, 'row');
+  for (const [key, chunk] of part.client.scene.chunks) {
+    assert.deepEqual(chunk, all.scene.chunks.get(key));
+  }
+});
+
+test('who comes back is sent only what is newer', inTime, async (t) => {
+  await createMap(url, 'resumed', { chunk_resolution: 8 });
+  const { client: first } = await watch(t, 'resumed');
+  await first.until(await first.edit({ ...square(), path: [[4, 4], [20, 4], [36, 4]] }));
+  await first.close();
+
+  const painter = await join(t, 'resumed');
+  await painter.edit(square(20, 4, 3));
+  await painter.edit(square(36, 4, 3, false));
+
+  const back = await join(t, 'resumed', { key: first.welcome.key });
+  assert.equal(back.joined.epoch, first.joined.epoch);
+  const changes = [];
+  back.on('change', (records) => changes.push(...records));
+  const have = { epoch: first.joined.epoch, seq: first.scene.seq, rect: [-100, -100, 100, 100] };
+  await back.view(undefined, { have, chunks: first.scene.chunks });
+  await back.until(3);
+  assert.deepEqual(places(changes), ['2,0', '4,0']);
+  assertHolds(back, await figuresOf(url, 'resumed'));
+});
+
+test('a deleted map says goodbye', inTime, async (t) => {
+  await createMap(url, 'deleted');
+  const client = await join(t, 'deleted');
+  const closed = once(client, 'close');
+  await deleteMap(url, 'deleted');
+  const [why] = await closed;
+  assert.equal(why.code, 'unknown_map');
+  await assert.rejects(client.ping(), why);
+  await assert.rejects(figuresOf(url, 'deleted'), { code: 'unknown_map' });
+});
+
+test('the example paints a ring and says what it sees', inTime, async () => {
+  const example = fileURLToPath(new URL('paint.mjs', import.meta.url));
+  const run = async () => {
+    const { stdout } = await promisify(execFile)(process.execPath, [example, url, 'ring']);
+    return JSON.parse(stdout);
+  };
+  const seen = await run();
+  const figures = await figuresOf(url, 'ring');
+  assert.equal(seen.seq, 48);
+  assert.equal(seen.mesh_hash, figures.mesh_hash);
+  assert.equal(seen.triangles, figures.triangles);
+  assert.equal((await run()).mesh_hash, seen.mesh_hash);
+});
