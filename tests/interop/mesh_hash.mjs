@@ -22,7 +22,7 @@ export function twiceArea({ xs, ys, indices }) {
 // Of one chunk's mesh, as a BigInt.
 export function chunkMeshHash(mesh) {
   const bytes = Buffer.alloc(8 + 24 * mesh.sections.length);
-  bytes.writeBigUInt64LE(BigInt(twiceArea(mesh)));
+  bytes.writeBigUInt64LE(BigInt.asUintN(64, BigInt(twiceArea(mesh))));
   let at = 8;
   for (const { start, end, startNormal, endNormal } of mesh.sections) {
     for (const vertex of [start, end]) {

@@ -6,6 +6,7 @@ const MIN_LENGTH = 22;
 const MAX_LENGTH = 1048576;
 const MAX_VERTICES = 65535;
 const COORDINATE_END = 2129920;
+const MAX_CHUNK_COORDINATE = 125000;
 
 export class BadFrame extends Error {}
 
@@ -129,6 +130,7 @@ export function readRecord(bytes) {
   const layer = reader.u8();
   expect(layer < 16, `there is no layer ${layer}`);
   const [x, y, z] = [reader.i32(), reader.i32(), reader.i32()];
+  expect([x, y, z].every((at) => Math.abs(at) <= MAX_CHUNK_COORDINATE), `chunk ${x}, ${y}, ${z}`);
   const record = { layer, x, y, z, revision: Number(reader.u64()) };
   if (kind === FULL) record.mesh = readMesh(reader);
   expect(reader.left === 0, 'a record has bytes left over');
