@@ -20,7 +20,7 @@ before(async () => {
   server = await startServer();
   url = server.url;
 });
-after(async () => assert.equal(await server.stop(), 0));
+after(async () => assert.equal(await server?.stop(), 0));
 
 async function join(t, map, who = {}) {
   const client = await Client.connect(url, who);
@@ -183,6 +183,31 @@ test('a view receives only its chunks, and a moved one those that are new', inTi
   for (const [key, chunk] of part.client.scene.chunks) {
     assert.deepEqual(chunk, all.scene.chunks.get(key));
   }
+});
+
+test('a view that moves while others paint ends with what lies in it', inTime, async (t) => {
+  await createMap(url, 'moving', { chunk_resolution: 8 });
+  const { client: all } = await watch(t, 'moving');
+  const { client: part } = await watch(t, 'moving', [0, 0, 1, 1]);
+  const painter = await join(t, 'moving');
+  await painter.edit(speckles);
+  const painted = paint(painter, stamps(3, 200).map((stamp) => ({ ...stamp, layer: 0 })), 8);
+  for (let i = 0; i < 40; ++i) {
+    const [x, y] = [i % 7 * 8 - 30, i % 5 * 10 - 25];
+    part.view();  // all of the map begins to come, and is still coming when the view is smaller
+    await part.view([x, y, x + 20, y + 15]);
+    if (i % 4 === 0) continue;
+    await part.until(0);
+    const outside = [...part.scene.chunks.values()].filter((chunk) =>
+      chunk.x * 8 + 8.5 < x || chunk.x * 8 + 0.5 > x + 20 ||
+      chunk.y * 8 + 8.5 < y || chunk.y * 8 + 0.5 > y + 15);
+    assert.deepEqual(places(outside), []);
+  }
+  const seq = Math.max(...await painted);
+  await Promise.all([all.until(seq), part.until(seq)]);
+  all.scene.look(part.scene.view);  // drops the rest
+  assert.ok(part.scene.chunks.size > 2);
+  assert.equal(part.scene.meshHash(), all.scene.meshHash());
 });
 
 test('who comes back is sent only what is newer', inTime, async (t) => {
