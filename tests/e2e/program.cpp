@@ -1,6 +1,7 @@
 #include "tests/e2e/program.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -65,29 +66,31 @@ Program::Program(const std::string& name, const std::vector<std::string>& argume
 Program::~Program() {
   if (!status_) {
     signal(SIGKILL);
-    ended(0);
+    reap(Reap::wait);
   }
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }
 
-void Program::signal(int number) const { kill(pid_, number); }
+void Program::signal(int number) const {
+  if (!status_) kill(pid_, number);  // its number may be somebody else's by now
+}
 
 std::string Program::out() const { return read_file((folder_ / "out").string()); }
 
-bool Program::ended(int flags) {
+bool Program::reap(Reap how) {
   int status = 0;
-  if (!status_ && waitpid(pid_, &status, flags) == pid_)
+  if (!status_ && waitpid(pid_, &status, how == Reap::wait ? 0 : WNOHANG) == pid_)
     status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return status_.has_value();
 }
 
 Outcome Program::wait() {
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
-  while (!ended(WNOHANG)) {
+  while (!ended()) {
     if (std::chrono::steady_clock::now() > give_up) {
       signal(SIGKILL);
-      ended(0);
+      reap(Reap::wait);
     }
     std::this_thread::sleep_for(kLookAgain);
   }
@@ -102,7 +105,7 @@ ServerProgram::ServerProgram()
     : program_("earthwork-server", {"serve", "--memory", "--listen", "127.0.0.1:0"}) {
   const std::string announcement = "listening on ";
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
-  while (std::chrono::steady_clock::now() < give_up) {
+  while (std::chrono::steady_clock::now() < give_up && !program_.ended()) {
     const std::string out = program_.out();
     const auto start = out.find(announcement);
     const auto end = out.find('\n', start);
@@ -115,7 +118,14 @@ ServerProgram::ServerProgram()
     }
     std::this_thread::sleep_for(kLookAgain);
   }
-  throw std::runtime_error("earthwork-server does not listen");
+  program_.signal(SIGKILL);
+  throw std::runtime_error("earthwork-server does not listen: " + program_.wait().err);
+}
+
+ServerProgram::~ServerProgram() {
+  ask_to_end();
+  const Outcome outcome = program_.wait();
+  EXPECT_EQ(outcome.exit_code, 0) << "earthwork-server: " << outcome.err;
 }
 
 void ServerProgram::ask_to_end() const { program_.signal(SIGTERM); }

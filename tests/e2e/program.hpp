@@ -29,11 +29,14 @@ class Program {
   void signal(int number) const;
   /// What was printed so far.
   std::string out() const;
+  /// Whether it has ended by itself.
+  bool ended() { return reap(Reap::if_ended); }
   /// Waits for its end, at most a minute; a program that takes longer is killed.
   Outcome wait();
 
  private:
-  bool ended(int flags);
+  enum class Reap { if_ended, wait };
+  bool reap(Reap how);
 
   std::filesystem::path folder_;
   pid_t pid_ = -1;
@@ -43,11 +46,16 @@ class Program {
 /// earthwork-bot with these arguments, from start to end.
 Outcome bot(const std::vector<std::string>& arguments);
 
-/// `earthwork-server serve --memory` on a free port, until it goes out of scope.
+/// `earthwork-server serve --memory` on a free port, until it goes out of scope: then it is asked
+/// to end, and the test fails unless it does so with 0 (a sanitizer that found something makes it
+/// 1).
 class ServerProgram {
  public:
   /// Returns once it listens; throws when it does not.
   ServerProgram();
+  ServerProgram(const ServerProgram&) = delete;
+  ServerProgram& operator=(const ServerProgram&) = delete;
+  ~ServerProgram();
   const link::ServerAddress& address() const { return address_; }
   std::string url() const { return address_.text(); }
   /// Asks it to end, as SIGTERM does.
