@@ -13,7 +13,7 @@ constexpr double kStep = voxel::kEdgeSteps;
 struct Count {
   Figures figures;
   double length = 0;             // in 1/32768 voxel
-  std::uint64_t twice_area = 0;  // in the square of that
+  std::uint64_t twice_area = 0;  // of mixed cells, in the square of that
   std::int64_t limit = 0;
 
   void section(CellPoint a, CellPoint b) {
@@ -48,7 +48,6 @@ struct Count {
     for (int y = 0; y < cells.height(); ++y) {
       const auto full = static_cast<std::uint64_t>(std::popcount(cells.full(y)));
       figures.cells_by_case[15] += full;
-      twice_area += full * 2 * voxel::kEdgeSteps * voxel::kEdgeSteps;
       if (cells.mixed(y) == 0) continue;
       cells.walk_row(y, [&](const MixedCell& at) { cell(cells, at); });
     }
@@ -83,8 +82,9 @@ Figures count_figures(const voxel::Map& map, double max_feature_angle) {
   }
   f.cells_by_case[0] = all;
   for (std::size_t k = 1; k < 16; ++k) f.cells_by_case[0] -= f.cells_by_case[k];
-  f.surface_area = static_cast<double>(count.twice_area) / 2 / (kStep * kStep) * grid.voxel_size *
-                   grid.voxel_size;
+  const double mixed_area = static_cast<double>(count.twice_area) / 2 / (kStep * kStep);
+  f.surface_area =
+      (static_cast<double>(f.cells_by_case[15]) + mixed_area) * grid.voxel_size * grid.voxel_size;
   f.wall_length = count.length / kStep * grid.voxel_size;
   f.filled_voxels = map.filled_voxels();
   return f;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace earthwork::voxel {
@@ -76,7 +77,9 @@ Crossing Coverage::cut(Axis axis, std::int32_t i, std::int32_t j, End covered) c
   const double r = stencil_.radius;
   double h = r;
   std::int32_t out = kNormalUnit, side = 0;  // the outward normal along the edge and across it
-  if (stencil_.shape == Shape::circle && r > 0) {
+  // Where r * r is below the normal numbers its root is not r any more. Such a circle covers only a
+  // voxel right at its centre, where d = 0 and h = r: the normal is the axis, as for r = 0.
+  if (stencil_.shape == Shape::circle && r * r >= std::numeric_limits<double>::min()) {
     const double d = position(line) - across;
     h = std::sqrt(r * r - d * d);
     out = round_away((kNormalUnit * h) / r);

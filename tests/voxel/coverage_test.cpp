@@ -70,5 +70,14 @@ TEST(Coverage, APointsNormalIsTheEdgesAxis) {
   EXPECT_EQ(c.cut(Axis::y, 2, 1, End::upper), (Crossing{32767, {0, -32767}}));
 }
 
+// r * r is 0 or a number of few digits for all but the last two.
+TEST(Coverage, TheSmallestCirclesHaveUnitNormals) {
+  for (const double radius : {5e-324, 1.6e-162, 2.6e-162, 1e-161, 1e-154, 1e-150, 1e-9}) {
+    const Coverage c = covering(Shape::circle, 0.5, 0.5, radius);
+    EXPECT_EQ(c.cut(Axis::x, 0, 0, End::lower), (Crossing{1, {32767, 0}})) << radius;
+    EXPECT_EQ(c.cut(Axis::y, 0, -1, End::upper), (Crossing{32767, {0, -32767}})) << radius;
+  }
+}
+
 }  // namespace
 }  // namespace earthwork::voxel
