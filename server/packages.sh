@@ -20,7 +20,8 @@ is_installed() {
 }
 
 # need_packages PACKAGE...: installs those that are missing; without any, apt-get is not called.
-# Nothing is ever removed: what stands in the way is named, and the script ends with status 2.
+# Nothing is ever removed: what stands in the way is named, and the script ends with status 2; with
+# 1 when apt-get fails. (It says so itself: where a caller looks at its status, bash has no errexit.)
 need_packages() {
   local package missing=() as_root=() in_the_way
   for package in "$@"; do
@@ -28,18 +29,21 @@ need_packages() {
   done
   [ ${#missing[@]} -gt 0 ] || return 0
 
-  local install=(apt-get install -y -q --no-remove --no-install-recommends "${missing[@]}")
+  local install=(install -y -q --no-remove --no-install-recommends "${missing[@]}")
   if [ "$(id -u)" -ne 0 ]; then
     as_root=(sudo)
     if ! command -v sudo >/dev/null; then
       echo "Packages are missing. Run this as root:" >&2
-      echo "  apt-get update && ${install[*]}" >&2
+      echo "  apt-get update && apt-get ${install[*]}" >&2
       exit 2
     fi
   fi
 
   echo "== installing ${missing[*]}"
-  "${as_root[@]}" apt-get update -qq </dev/null
+  # A machine that has just started may be updating itself.
+  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+    apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3)
+  "${apt_get[@]}" update -qq </dev/null || failed_to "read the lists of packages"
   in_the_way=$(apt-get install -s --no-install-recommends "${missing[@]}" 2>/dev/null |
     awk '$1 == "Remv" { print $2 }' | tr '\n' ' ') || true
   if [ -n "$in_the_way" ]; then
@@ -48,7 +52,12 @@ need_packages() {
     echo "docker/README says how to build beside what is installed." >&2
     exit 2
   fi
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}" </dev/null >/dev/null
+  "${apt_get[@]}" "${install[@]}" </dev/null >/dev/null || failed_to "install ${missing[*]}"
+}
+
+failed_to() {
+  echo "apt-get failed to $1; what it said is above." >&2
+  exit 1
 }
 
 # use_ccache ROOT: ccache finds what another clone of the project on this machine has built, and a

@@ -6,5 +6,5 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 if [ node_modules/.package-lock.json -nt package-lock.json ]; then
   echo "tests/node_modules is up to date"
 else
-  npm ci --ignore-scripts --no-audit --no-fund
+  npm ci --ignore-scripts --no-audit --no-fund --fetch-retries=5 --fetch-retry-mintimeout=2000
 fi

@@ -15,14 +15,15 @@ fake() {
   chmod +x "$scratch/bin/$1"
 }
 
-# try USER_ID: asks for two packages, "here" and "gone"; sets status, calls and output.
+# try USER_ID: asks for two packages, "here" and "gone", where bash does not end at an error by
+# itself; sets status, calls and output.
 try() {
   fake id "echo $1"
   : >"$scratch/calls"
   status=0
   output=$(PATH=$scratch/bin bash -c "set -euo pipefail
     . '$root/server/packages.sh'
-    need_packages here gone" 2>&1) || status=$?
+    need_packages here gone || exit \$?" 2>&1) || status=$?
   calls=$(cat "$scratch/calls")
 }
 
@@ -37,6 +38,7 @@ apt_get() {
   fake apt-get "echo apt-get \"\$@\" >>'$scratch/calls'; case \" \$* \" in *' -s '*) $1 ;; esac"
 }
 
+options="-o DPkg::Lock::Timeout=300 -o Acquire::Retries=3"
 apt_get 'true'
 fake dpkg-query 'echo installed'
 try 0
@@ -45,19 +47,26 @@ expect "nothing is missing" "0 " "$status $calls"
 fake dpkg-query '[ "${*: -1}" = here ] && echo installed'
 try 0
 expect "one is missing: status" 0 "$status"
-expect "one is missing: calls" "apt-get update -qq
+expect "one is missing: calls" "apt-get $options update -qq
 apt-get install -s --no-install-recommends gone
-apt-get install -y -q --no-remove --no-install-recommends gone" "$calls"
+apt-get $options install -y -q --no-remove --no-install-recommends gone" "$calls"
 
 apt_get 'echo "Remv libboost1.74-dev [1.74.0]"; echo "Inst gone (1.0)"'
 try 0
 expect "Boost 1.74 is in the way: status" 2 "$status"
-expect "Boost 1.74 is in the way: calls" "apt-get update -qq
+expect "Boost 1.74 is in the way: calls" "apt-get $options update -qq
 apt-get install -s --no-install-recommends gone" "$calls"
 case $output in
   *libboost1.74-dev*docker/README*) ;;
   *) expect "names the package and docker/README" "both" "$output" ;;
 esac
+
+for step in update install; do
+  fake apt-get "case \" \$* \" in *' -s '*) ;; *' $step '*) exit 100 ;; esac"
+  try 0
+  expect "apt-get $step fails: status" 1 "$status"
+  expect "apt-get $step fails: last line" "what it said is above." "${output##*; }"
+done
 
 apt_get 'true'
 try 1000
@@ -70,7 +79,7 @@ esac
 fake sudo "echo -n 'sudo ' >>'$scratch/calls'; exec \"\$@\""
 try 1000
 expect "sudo: status" 0 "$status"
-expect "sudo: calls" "sudo apt-get update -qq
+expect "sudo: calls" "sudo apt-get $options update -qq
 apt-get install -s --no-install-recommends gone
-sudo apt-get install -y -q --no-remove --no-install-recommends gone" "$calls"
+sudo apt-get $options install -y -q --no-remove --no-install-recommends gone" "$calls"
 echo "as it should be"
