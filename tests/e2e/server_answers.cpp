@@ -13,13 +13,14 @@ using namespace std::chrono_literals;
 
 namespace {
 
+template <class Condition>
 bool wait_for(const ServerProgram& server, const std::string& map, const char* key,
-              std::uint64_t least) {
+              Condition condition) {
   const auto give_up = std::chrono::steady_clock::now() + 60s;
   while (std::chrono::steady_clock::now() < give_up) {
     const auto answer = link::http_get(server.address(), "/api/maps/" + map);
     if (answer && answer->status == 200 &&
-        json::parse(answer->body)[key].get<std::uint64_t>() >= least)
+        condition(json::parse(answer->body)[key].get<std::uint64_t>()))
       return true;
     std::this_thread::sleep_for(5ms);
   }
@@ -41,11 +42,11 @@ json figures(const ServerProgram& server, const std::string& map) {
 }
 
 bool wait_for_seq(const ServerProgram& server, const std::string& map, std::uint64_t seq) {
-  return wait_for(server, map, "seq", seq);
+  return wait_for(server, map, "seq", [seq](std::uint64_t now) { return now >= seq; });
 }
 
 bool wait_for_users(const ServerProgram& server, const std::string& map, std::uint64_t users) {
-  return wait_for(server, map, "users", users);
+  return wait_for(server, map, "users", [users](std::uint64_t now) { return now == users; });
 }
 
 json report(const Outcome& outcome) {

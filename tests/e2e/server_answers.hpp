@@ -16,7 +16,7 @@ nlohmann::json figures(const ServerProgram& server, const std::string& map);
 
 /// Waits until the map is at this event or later, at most a minute.
 bool wait_for_seq(const ServerProgram& server, const std::string& map, std::uint64_t seq);
-/// Waits until so many people are on the map, at most a minute.
+/// Waits until exactly so many people are on the map, at most a minute.
 bool wait_for_users(const ServerProgram& server, const std::string& map, std::uint64_t users);
 
 /// The last line that a program printed, as JSON.
