@@ -1,5 +1,6 @@
 #include "tests/transcripts/player.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <map>
@@ -21,9 +22,9 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = Line::Kind;
 
-constexpr auto kPatience = 20s;   // for a line that is expected
-constexpr auto kQuiet = 400ms;    // after which nothing more is expected: empty groups take 100 ms
-constexpr auto kEpilogue = 20ms;  // for lines that should not come at all
+constexpr auto kPatience = 60s;  // for a line that is expected
+constexpr auto kQuiet = 400ms;   // after which nothing more is expected: empty groups take 100 ms
+constexpr auto kBreath = 20ms;   // between lines that should not come at all
 
 class Client {
  public:
@@ -96,6 +97,16 @@ class Player {
     return line;
   }
 
+  /// Waits until a client has received a line, at most so long.
+  void wait_for_any(std::chrono::nanoseconds at_most) {
+    wait_until(
+        [&] {
+          return std::any_of(clients_.begin(), clients_.end(),
+                             [](const auto& one) { return !one.second->lines().empty(); });
+        },
+        at_most);
+  }
+
   /// All lines that all clients receive until it is quiet for so long.
   std::vector<Line> all(std::chrono::nanoseconds quiet) {
     std::vector<Line> out;
@@ -164,7 +175,7 @@ bool is_said(const Line& line) {
 
 }  // namespace
 
-std::string play(const Transcript& transcript) {
+std::string play(const Transcript& transcript, std::chrono::nanoseconds epilogue) {
   Player player;
   for (std::size_t i = 0; i < transcript.lines.size(); ++i) {
     const Line& line = transcript.lines[i];
@@ -178,7 +189,8 @@ std::string play(const Transcript& transcript) {
              "\n  received " + received.value_or("nothing");
   }
   std::string extra;
-  for (const Line& line : player.all(kEpilogue))
+  player.wait_for_any(epilogue);
+  for (const Line& line : player.all(kBreath))
     extra += std::string(1, line.client) + " received more: " + line.text + "\n";
   return extra;
 }
