@@ -26,9 +26,9 @@ struct PaintOptions {
 };
 
 struct PaintReport {
-  std::uint64_t edits = 0;     ///< Sent.
+  std::uint64_t edits = 0;     ///< Handed to the link.
   std::uint64_t acked = 0;     ///< Of those, applied.
-  std::uint64_t rejected = 0;  ///< Of those, refused by the server.
+  std::uint64_t rejected = 0;  ///< Of those, refused: by the server, or unsent by the link itself.
   double seconds = 0;          ///< From the answer to the join to the last answer.
   std::vector<double> ack_ms;  ///< From sending to `applied`, in the order of the answers.
   std::uint64_t seq = 0;       ///< Of the last edit applied; of the join before there is one.

@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 #include <thread>
 
 #include "client/bot/paint_report.hpp"
@@ -37,19 +41,62 @@ std::vector<protocol::ScriptStep> edits(int count) {
   return std::vector<protocol::ScriptStep>(static_cast<std::size_t>(count), edit);
 }
 
+/// What the painter tells, for the thread of the server to wait for.
+class Log : public std::streambuf {
+ public:
+  /// Waits until a line begins with this, at most a minute; says whether it does.
+  bool tells(const std::string& start) {
+    std::unique_lock lock(mutex_);
+    return more_.wait_for(lock, std::chrono::minutes(1),
+                          [&] { return ("\n" + text_).find("\n" + start) != std::string::npos; });
+  }
+  std::string text() {
+    const std::scoped_lock lock(mutex_);
+    return text_;
+  }
+
+ private:
+  int overflow(int character) override {
+    const std::scoped_lock lock(mutex_);
+    text_ += static_cast<char>(character);
+    more_.notify_all();
+    return character;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable more_;
+  std::string text_;
+};
+
 struct Painting {
   PaintReport report;
   std::string log;
 };
 
+Painting run(std::function<void(Peer&, Log&)> play, const std::vector<protocol::ScriptStep>& steps,
+             std::size_t window = 64) {
+  Log log;
+  PaintReport report;
+  {
+    const FakeServer server("earthwork.v1", [&](Peer& peer) { play(peer, log); });
+    std::ostream out(&log);
+    const PaintOptions options{
+        .server = server.address(), .map = "demo", .window = window, .edits_per_second = {}};
+    report = paint(options, steps, out);
+  }
+  return {std::move(report), log.text()};
+}
+
 Painting run(std::function<void(Peer&)> play, const std::vector<protocol::ScriptStep>& steps,
              std::size_t window = 64) {
-  const FakeServer server("earthwork.v1", std::move(play));
-  std::ostringstream log;
-  const PaintOptions options{
-      .server = server.address(), .map = "demo", .window = window, .edits_per_second = {}};
-  PaintReport report = paint(options, steps, log);
-  return {std::move(report), log.str()};
+  return run([&play](Peer& peer, Log&) { play(peer); }, steps, window);
+}
+
+/// Of an edit of `edits` with an id of one digit, as a client's WebSocket message.
+std::size_t wire_bytes() {
+  const auto edit = std::get<protocol::Edit>(edits(1).front());
+  const std::size_t bytes = protocol::write(protocol::EditMessage{.id = 1, .edit = edit}).size();
+  return bytes + (bytes < 126 ? 6 : 8);
 }
 
 TEST(Painter, KeepsToItsWindow) {
@@ -58,6 +105,11 @@ TEST(Painter, KeepsToItsWindow) {
   const Painting painting = run(
       [&](Peer& peer) {
         greet(peer);
+        const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (peer.waiting_bytes() < 3 * wire_bytes() &&
+               std::chrono::steady_clock::now() < give_up)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        // A fourth would follow at once.
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         waiting = peer.waiting_bytes();
         for (int i = 1; i <= 3; ++i) heard.push_back(peer.read());
@@ -70,8 +122,7 @@ TEST(Painter, KeepsToItsWindow) {
       },
       edits(5), 3);
   ASSERT_EQ(heard.size(), 6u);
-  const std::size_t head = heard[0].size() < 126 ? 6 : 8;  // of a WebSocket message
-  EXPECT_EQ(waiting, 3 * (head + heard[0].size()));
+  EXPECT_EQ(waiting, 3 * wire_bytes());
   for (int i = 0; i < 5; ++i)
     EXPECT_EQ(json::parse(heard[static_cast<std::size_t>(i)])["id"], i + 1);
   EXPECT_EQ(heard[5], "closed 1000");
@@ -166,11 +217,11 @@ TEST(Painter, HasNothingToTalkToWithoutItsMap) {
 TEST(Painter, WaitsForTheAnswersThatAreDueAfterASignal) {
   std::vector<std::string> heard;
   const Painting painting = run(
-      [&](Peer& peer) {
+      [&](Peer& peer, Log& log) {
         greet(peer);
         heard.push_back(peer.read());
         std::raise(SIGTERM);
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        EXPECT_TRUE(log.tells("interrupted\n"));
         apply(peer, 1, 8);
         heard.push_back(peer.read());
       },
@@ -185,11 +236,11 @@ TEST(Painter, WaitsForTheAnswersThatAreDueAfterASignal) {
 
 TEST(Painter, EndsAtASecondSignalWithoutItsAnswers) {
   const Painting painting = run(
-      [](Peer& peer) {
+      [](Peer& peer, Log& log) {
         greet(peer);
         peer.read();
         std::raise(SIGINT);
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        EXPECT_TRUE(log.tells("interrupted\n"));
         std::raise(SIGINT);
         peer.read();
       },
