@@ -24,6 +24,16 @@ int lines(const std::string& text) {
   return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// Waits for the end of a line, at most a minute.
+bool prints_a_line(Program& program) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (program.out().find('\n') == std::string::npos) {
+    if (program.ended() || std::chrono::steady_clock::now() > give_up) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
 TEST(Server, SaysItsVersionAndWhatItCan) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--version"}, {"serve", "--version"}}) {
@@ -65,8 +75,7 @@ TEST(Server, NamesTheFlagThatOpensIt) {
 TEST(Server, EndsWithZeroWhenItIsAsked) {
   for (const int signal : {SIGTERM, SIGINT}) {
     Program program("earthwork-server", {"serve", "--demo", "--listen", "127.0.0.1:0"});
-    while (program.out().find('\n') == std::string::npos)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ASSERT_TRUE(prints_a_line(program));
     const auto start = std::chrono::steady_clock::now();
     program.signal(signal);
     const Outcome outcome = program.wait();
