@@ -57,9 +57,10 @@ TEST(House, IsFormatted) {
   EXPECT_EQ(std::system(command.c_str()), 0) << "mend it with clang-format -i";
 }
 
-TEST(House, CountsItsLines) {
+TEST(House, HasSixLinesOfTestsForTenOfSource) {
   const LineCount count = count_lines(tree());
   ASSERT_GT(count.source, 0u);
+  EXPECT_GE(count.test * 10, count.source * 6);
   std::printf("source lines %zu, test lines %zu (%zu %%)\n", count.source, count.test,
               count.test * 100 / count.source);
 }
