@@ -40,10 +40,15 @@ need_packages() {
   fi
 
   echo "== installing ${missing[*]}"
-  # A machine that has just started may be updating itself.
+  # A machine that has just started may be updating itself: the timeout is for the lock on the
+  # packages; the one on their lists is not waited for by apt-get.
   local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
     apt-get -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3)
-  "${apt_get[@]}" update -qq </dev/null || failed_to "read the lists of packages"
+  local tries=6
+  until "${apt_get[@]}" update -qq </dev/null; do
+    [ $((tries -= 1)) -gt 0 ] || failed_to "read the lists of packages"
+    sleep 10
+  done
   in_the_way=$(apt-get install -s --no-install-recommends "${missing[@]}" 2>/dev/null |
     awk '$1 == "Remv" { print $2 }' | tr '\n' ' ') || true
   if [ -n "$in_the_way" ]; then

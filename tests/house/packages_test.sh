@@ -38,6 +38,7 @@ apt_get() {
   fake apt-get "echo apt-get \"\$@\" >>'$scratch/calls'; case \" \$* \" in *' -s '*) $1 ;; esac"
 }
 
+fake sleep "echo sleep \"\$@\" >>'$scratch/calls'"
 options="-o DPkg::Lock::Timeout=300 -o Acquire::Retries=3"
 apt_get 'true'
 fake dpkg-query 'echo installed'
@@ -60,6 +61,16 @@ case $output in
   *libboost1.74-dev*docker/README*) ;;
   *) expect "names the package and docker/README" "both" "$output" ;;
 esac
+
+fake apt-get "echo apt-get \"\$@\" >>'$scratch/calls'
+  case \" \$* \" in *' update '*) [[ \$(<'$scratch/calls') == *sleep* ]] ;; esac"
+try 0
+expect "the lists are locked at first: status" 0 "$status"
+expect "the lists are locked at first: calls" "apt-get $options update -qq
+sleep 10
+apt-get $options update -qq
+apt-get install -s --no-install-recommends gone
+apt-get $options install -y -q --no-remove --no-install-recommends gone" "$calls"
 
 for step in update install; do
   fake apt-get "case \" \$* \" in *' -s '*) ;; *' $step '*) exit 100 ;; esac"
