@@ -64,7 +64,7 @@ void Conversation::handle(protocol::Join& join) {
   if (!room) return reject(join.id, {Code::unknown_map, "map: there is no " + join.map, "map"});
 
   place_ = Place::entering;
-  room->strand().post([self = shared_from_this(), room, user = user_, id = join.id] {
+  run_in(room, [self = shared_from_this(), room, user = user_, id = join.id] {
     auto entrance = room->join(self, user);
     self->own_->post(
         [self, room, entrance = std::move(entrance), id] { self->entered(room, entrance, id); });
@@ -91,12 +91,13 @@ void Conversation::handle(const protocol::Leave& leave) {
     return reject(leave.id, {Code::bad_state, "no map was joined", "type"});
   place_ = Place::leaving;
   in_room([self = shared_from_this(), id = leave.id](room::Room& room, room::ViewerId viewer) {
-    room.leave(viewer);
     // All that the room had told before is on the strand already, ahead of this.
-    self->own_->post([self, id] {
-      self->place_ = Place::outside;
-      self->room_.reset();
-      self->done(id);
+    room.leave_when_told(viewer, [self, id] {
+      self->own_->post([self, id] {
+        self->place_ = Place::outside;
+        self->room_.reset();
+        self->done(id);
+      });
     });
   });
 }
@@ -134,8 +135,21 @@ void Conversation::answered(std::optional<MessageId> id, const protocol::Result<
 void Conversation::handle(const protocol::Ping& ping) { done(ping.id); }
 
 void Conversation::in_room(std::function<void(room::Room&, room::ViewerId)> task) {
-  room_->strand().post(
-      [room = room_, viewer = viewer_, run = std::move(task)] { run(*room, viewer); });
+  run_in(room_, [room = room_, viewer = viewer_, run = std::move(task)] { run(*room, viewer); });
+}
+
+// A task that fails has lost a reply: then the session ends, so that its client need not wait.
+void Conversation::run_in(const std::shared_ptr<room::Room>& room, std::function<void()> task) {
+  room->strand().post([self = shared_from_this(), run = std::move(task)] {
+    try {
+      run();
+    } catch (...) {
+      self->own_->post([self] {
+        self->say_bye({Code::internal, "the server made a mistake", {}});
+      });
+      throw;
+    }
+  });
 }
 
 void Conversation::sent(const OutgoingMessage& message) {

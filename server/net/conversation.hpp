@@ -77,6 +77,7 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
                std::optional<protocol::MessageId> id);
   void answered(std::optional<protocol::MessageId> id, const protocol::Result<void>& result);
   void in_room(std::function<void(room::Room&, room::ViewerId)> task);
+  void run_in(const std::shared_ptr<room::Room>& room, std::function<void()> task);
 
   room::Atlas& atlas_;
   const std::unique_ptr<room::Strand> own_;

@@ -1,26 +1,43 @@
 #include "server/room/asio_strand.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <chrono>
+#include <exception>
 
 namespace earthwork::room {
 namespace {
 
 namespace asio = boost::asio;
 
+// An exception must not reach the threads of the pool: it would end the process, and with it what
+// everybody else does.
+void run_alone(const Strand::Task& task) {
+  try {
+    task();
+  } catch (const std::exception& error) {
+    spdlog::error("a task failed: {}", error.what());
+  } catch (...) {
+    spdlog::error("a task failed");
+  }
+}
+
 class AsioStrand final : public Strand {
  public:
   explicit AsioStrand(asio::any_io_executor serial) : serial_(std::move(serial)) {}
 
-  void post(Task task) override { asio::post(serial_, std::move(task)); }
+  void post(Task task) override {
+    asio::post(serial_, [run = std::move(task)] { run_alone(run); });
+  }
 
   void post_after(std::chrono::milliseconds delay, Task task) override {
     // The handler keeps its own timer alive.
     auto timer = std::make_shared<asio::steady_timer>(serial_, delay);
     timer->async_wait([timer, run = std::move(task)](const boost::system::error_code& error) {
-      if (!error) run();
+      if (!error) run_alone(run);
     });
   }
 

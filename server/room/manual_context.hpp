@@ -17,7 +17,8 @@ class ManualContext {
   /// All strands of a context share one order.
   [[nodiscard]] std::unique_ptr<Strand> make_strand();
 
-  /// Runs tasks, also those that they post, until none is left. Gives back how many ran.
+  /// Runs tasks, also those that they post, until none is left. Gives back how many ran. What a
+  /// task throws comes out; the next call goes on with those after it.
   int run();
   /// Lets time pass, and runs what falls due meanwhile.
   void advance(std::chrono::milliseconds time);

@@ -11,15 +11,24 @@ namespace {
 
 using protocol::Code;
 
-// A turn applies edits until either bound, then shows them: so that a crowd of editors is meshed
-// and sent for once, and that a flood of edits does not keep everybody waiting.
+// A turn applies edits until one of these bounds, then shows them: so that a crowd of editors is
+// meshed and sent for once, and that a flood of edits does not keep everybody waiting. Visits count
+// whether or not a chunk changes: the largest edit has four times this many.
 constexpr int kTurnEdits = 512;
 constexpr std::size_t kTurnDirtyChunks = 1024;
+constexpr std::uint64_t kTurnChunkVisits = 65536;
 
 // A group without a chunk says how far the map is: at most 10 a second.
 constexpr std::chrono::milliseconds kBeat{100};
 // `joined` lists this many; it stays far below kMaxServerControlBytes.
 constexpr std::size_t kMaxListedUsers = 1000;
+
+/// The chunks that an edit looks at, a chunk once a stamp, or a few more.
+std::uint64_t chunk_visits(const protocol::Edit& edit, const protocol::MapSettings& settings) {
+  const double side_voxels = 2 * edit.radius / settings.voxel_size;
+  const auto side = static_cast<std::uint64_t>(side_voxels / settings.chunk_resolution) + 2;
+  return side * side * edit.path.size();
+}
 
 }  // namespace
 
@@ -33,7 +42,7 @@ Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch
       meshes_(settings_.max_feature_angle) {}
 
 protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, protocol::User user) {
-  if (closed_) return protocol::fail(Code::unknown_map, "map: it was deleted", "map");
+  if (closed_) return tl::unexpected<protocol::Failure>(*closed_);
   const ViewerId id = ++last_viewer_;
   Seat& seat = seats_[id];
   seat.viewer = std::move(viewer);
@@ -53,6 +62,16 @@ protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, prot
 }
 
 void Room::leave(ViewerId viewer) { seats_.erase(viewer); }
+
+void Room::leave_when_told(ViewerId viewer, std::function<void()> gone) {
+  const auto found = seats_.find(viewer);
+  if (found != seats_.end() && found->second.waiting > 0) {
+    found->second.gone = std::move(gone);
+    return;
+  }
+  leave(viewer);
+  gone();
+}
 
 protocol::Result<void> Room::look(ViewerId viewer, const protocol::View& view) {
   const auto found = seats_.find(viewer);
@@ -77,33 +96,54 @@ void Room::ready(ViewerId viewer) {
 }
 
 protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
-  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "edit: join a map first");
+  const auto found = seats_.find(viewer);
+  if (found == seats_.end()) return protocol::fail(Code::bad_state, "edit: join a map first");
   if (auto checked = protocol::check_edit(command.edit, settings_); !checked) return checked;
+  const std::size_t points = command.edit.path.size();
+  if (waiting_points_ + points > kMaxWaitingPoints)
+    return protocol::fail(Code::too_large,
+                          "path: edits of " + std::to_string(kMaxWaitingPoints) +
+                              " points may wait in a map; send it again later",
+                          "path");
   waiting_.push_back({viewer, std::move(command)});
+  waiting_points_ += points;
+  ++found->second.waiting;
   schedule_turn();
   return {};
 }
 
-void Room::post(void (Room::*task)()) {
-  strand_->post([self = shared_from_this(), task] { ((*self).*task)(); });
+void Room::run(void (Room::*task)()) {
+  try {
+    (this->*task)();
+  } catch (...) {
+    close({.failure = {Code::internal, "map: it ended after a mistake of the server", "map"},
+           .retry_after_ms = {}});
+    throw;
+  }
 }
 
 void Room::schedule_turn() {
   if (turn_scheduled_) return;
   turn_scheduled_ = true;
-  post(&Room::turn);
+  strand_->post([self = shared_from_this()] { self->run(&Room::turn); });
 }
 
 void Room::turn() {
   turn_scheduled_ = false;
   std::vector<voxel::ChunkKey> dirty;
-  for (int n = 0; n < kTurnEdits && dirty.size() < kTurnDirtyChunks && !waiting_.empty(); ++n)
+  std::uint64_t visits = 0;
+  for (int n = 0; n < kTurnEdits && dirty.size() < kTurnDirtyChunks && visits < kTurnChunkVisits &&
+                  !waiting_.empty();
+       ++n) {
+    visits += chunk_visits(waiting_.front().command.edit, settings_);
     apply_next(dirty);
+  }
   std::sort(dirty.begin(), dirty.end());
   dirty.erase(std::unique(dirty.begin(), dirty.end()), dirty.end());
   for (auto& [id, seat] : seats_) seat.subscription.owe(dirty);
 
   acknowledge();
+  let_go();
   publish(Beat::wait);
   if (!waiting_.empty()) schedule_turn();
 }
@@ -111,6 +151,7 @@ void Room::turn() {
 void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
   Waiting next = std::move(waiting_.front());
   waiting_.pop_front();
+  waiting_points_ -= next.command.edit.path.size();
 
   const voxel::Change& change = history::apply(map_, next.command.edit);
   meshes_.mark_stale(change);
@@ -120,8 +161,10 @@ void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
                      .time_ms = strand_->now_ms(),
                      .author = next.command.author,
                      .edit = std::move(next.command.edit)});
-  if (const auto seat = seats_.find(next.viewer); seat != seats_.end())
+  if (const auto seat = seats_.find(next.viewer); seat != seats_.end()) {
+    --seat->second.waiting;
     seat->second.told.push_back({.id = next.command.id, .seq = seq()});
+  }
 }
 
 void Room::acknowledge() {
@@ -129,12 +172,24 @@ void Room::acknowledge() {
     if (!seat.told.empty()) seat.viewer->applied(std::exchange(seat.told, {}));
 }
 
+void Room::let_go() {
+  for (auto seat = seats_.begin(); seat != seats_.end();) {
+    if (!seat->second.gone || seat->second.waiting > 0) {
+      ++seat;
+      continue;
+    }
+    const auto gone = std::move(seat->second.gone);
+    seat = seats_.erase(seat);
+    gone();
+  }
+}
+
 void Room::publish(Beat beat) {
   for (auto& [id, seat] : seats_) publish_to(seat, beat);
 }
 
 void Room::publish_to(Seat& seat, Beat beat) {
-  if (!seat.ready) return;
+  if (!seat.ready || seat.gone) return;
   const bool due = beat == Beat::due && seat.subscription.behind(seq());
   if (due || seat.subscription.waiting()) {
     if (Parcel parcel = seat.subscription.compose(state(), beat); !parcel.empty()) {
@@ -151,11 +206,13 @@ void Room::schedule_beat() {
   if (beat_scheduled_) return;
   beat_scheduled_ = true;
   strand_->post_after(kBeat, [weak = weak_from_this()] {
-    const auto self = weak.lock();
-    if (!self) return;
-    self->beat_scheduled_ = false;
-    self->publish(Beat::due);
+    if (const auto self = weak.lock()) self->run(&Room::beat);
   });
+}
+
+void Room::beat() {
+  beat_scheduled_ = false;
+  publish(Beat::due);
 }
 
 RoomInfo Room::info() {
@@ -184,8 +241,9 @@ protocol::Result<StatesPicture> Room::states(std::uint64_t layer) const {
 }
 
 void Room::close(const protocol::Bye& bye) {
-  closed_ = true;
+  closed_ = bye.failure;
   waiting_.clear();
+  waiting_points_ = 0;
   for (auto& [id, seat] : std::exchange(seats_, {})) seat.viewer->end(bye);
 }
 

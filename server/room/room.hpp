@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,10 @@ namespace earthwork::room {
 /// Given when a viewer joins; never used twice in one room.
 using ViewerId = std::uint64_t;
 
+/// Centres of edits that wait to be applied, of all viewers together. A message that has one is
+/// much larger, so this bounds what a crowd of editors can make a map hold.
+inline constexpr std::size_t kMaxWaitingPoints = std::size_t{4} << 20;
+
 struct RoomInfo {
   std::uint64_t seq = 0, hash = 0;
   std::size_t chunks = 0;  ///< Kept: with a filled voxel or a crossing.
@@ -48,6 +53,9 @@ struct MeshSnapshot {
 
 /// name, settings, epoch and strand: any thread. Everything else: on the strand only, which also
 /// calls the viewers. Held by shared_ptr; a task on its strand keeps it alive.
+///
+/// When its own work throws, out of memory say, map and events may no longer agree: it closes with
+/// `internal`, and the exception goes on to the strand.
 class Room : public std::enable_shared_from_this<Room> {
  public:
   /// An empty map. `settings` is valid.
@@ -63,11 +71,14 @@ class Room : public std::enable_shared_from_this<Room> {
     ViewerId viewer = 0;
     protocol::Joined joined;  ///< Without an id.
   };
-  /// Fails with unknown_map when the room was closed.
+  /// Fails with what the room was closed for.
   [[nodiscard]] protocol::Result<Entrance> join(std::shared_ptr<Viewer> viewer,
                                                 protocol::User user);
-  /// After it the viewer is not called again.
+  /// After it the viewer is not called again; its edits in line are applied all the same.
   void leave(ViewerId viewer);
+  /// Leaves once the viewer was told the numbers of all its edits in line, and then calls `gone`:
+  /// within the call when none waits. It is shown nothing more meanwhile.
+  void leave_when_told(ViewerId viewer, std::function<void()> gone);
   /// Changes what the viewer is shown; parcels follow later, never from within the call. Fails
   /// with too_large for more than kMaxViewChunks.
   [[nodiscard]] protocol::Result<void> look(ViewerId viewer, const protocol::View& view);
@@ -79,8 +90,9 @@ class Room : public std::enable_shared_from_this<Room> {
     std::uint64_t author = 0;
     protocol::Edit edit;
   };
-  /// Puts an edit in line. Fails when `check_edit` does; then it has no number. Otherwise the
-  /// viewer is told its number later, never from within the call.
+  /// Puts an edit in line. Fails when `check_edit` does, and with too_large when kMaxWaitingPoints
+  /// would be exceeded; then it has no number. Otherwise the viewer is told its number later, never
+  /// from within the call.
   [[nodiscard]] protocol::Result<void> submit(ViewerId viewer, Command command);
 
   [[nodiscard]] RoomInfo info();
@@ -102,21 +114,25 @@ class Room : public std::enable_shared_from_this<Room> {
     protocol::User user;
     Subscription subscription;
     bool ready = true;                    // to take a parcel
+    std::size_t waiting = 0;              // edits in line
     std::vector<protocol::Applied> told;  // of this turn
+    std::function<void()> gone;           // set: it leaves when none waits
   };
   struct Waiting {
     ViewerId viewer = 0;
     Command command;
   };
 
-  void post(void (Room::*task)());
+  void run(void (Room::*task)());
   void schedule_turn();
   void turn();
   void apply_next(std::vector<voxel::ChunkKey>& dirty);
   void acknowledge();
+  void let_go();
   void publish(Beat beat);
   void publish_to(Seat& seat, Beat beat);
   void schedule_beat();
+  void beat();
   [[nodiscard]] MapState state() { return {map_, meshes_, epoch_, seq()}; }
   [[nodiscard]] std::uint64_t seq() const { return events_.size(); }
 
@@ -128,11 +144,13 @@ class Room : public std::enable_shared_from_this<Room> {
   voxel::Map map_;
   MeshCache meshes_;
   std::vector<history::Event> events_;  // event n at n - 1
-  std::deque<Waiting> waiting_;         // bounded by the sessions' windows
+  std::deque<Waiting> waiting_;
+  std::size_t waiting_points_ = 0;  // of all that waits: at most kMaxWaitingPoints
   std::map<ViewerId, Seat> seats_;
   ViewerId last_viewer_ = 0;
   std::optional<RoomFigures> figures_;  // the last ones asked for
-  bool turn_scheduled_ = false, beat_scheduled_ = false, closed_ = false;
+  bool turn_scheduled_ = false, beat_scheduled_ = false;
+  std::optional<protocol::Failure> closed_;  // why
 };
 
 }  // namespace earthwork::room

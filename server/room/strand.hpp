@@ -9,7 +9,7 @@
 namespace earthwork::room {
 
 /// Any thread may post. A task that was posted runs once, unless the strand's thread pool ends
-/// first; tasks must not throw.
+/// first. What a task throws ends that task alone: a running server logs it.
 class Strand {
  public:
   using Task = std::function<void()>;

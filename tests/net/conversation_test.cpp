@@ -178,6 +178,35 @@ TEST_F(ConversationTest, LeavingAndJoiningAgain) {
   EXPECT_EQ(atlas.find("m")->info().users, 1u);
 }
 
+TEST_F(ConversationTest, ALeaveIsDoneAfterTheEditsBeforeIt) {
+  talk.one<protocol::Welcome>(kHello);
+  // Lost replies would add up until nothing is read any more.
+  for (int round = 0; round < 2 * kMaxUnanswered; ++round) {
+    talk.one<protocol::Joined>(kJoin);
+    ASSERT_TRUE(talk.conversation->may_read());
+    talk.conversation->receive(kEdit);
+    talk.conversation->receive(R"({"type":"leave","id":5})");
+    const auto heard = talk.hear();
+    ASSERT_EQ(heard.size(), 2u);
+    EXPECT_EQ(std::get<protocol::Applied>(heard[0]).id, 4);
+    EXPECT_EQ(std::get<protocol::Done>(heard[1]).id, 5);
+    ASSERT_TRUE(talk.conversation->may_read());
+  }
+  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  EXPECT_EQ(atlas.find("m")->info().seq, 128u);
+}
+
+TEST_F(ConversationTest, AbandonedDuringALeaveItLeavesTheRoom) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.conversation->receive(kEdit);
+  talk.conversation->receive(R"({"type":"leave","id":5})");
+  talk.conversation->abandon();
+  context.run();
+  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  EXPECT_EQ(atlas.find("m")->info().seq, 1u);
+}
+
 TEST_F(ConversationTest, PingIsDone) {
   talk.one<protocol::Welcome>(kHello);
   EXPECT_EQ(talk.one<protocol::Done>(R"({"type":"ping","id":77})").id, 77);

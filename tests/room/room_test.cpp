@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <stdexcept>
+
 #include "server/history/fold.hpp"
 #include "tests/room/world.hpp"
 
@@ -238,6 +240,75 @@ TEST_F(RoomTest, ALeaverIsToldNothingMore) {
   EXPECT_TRUE(b.eyes->parcels.empty());
   EXPECT_EQ(room->info().seq, 1u);  // what was taken stays
   EXPECT_FALSE(submit(b, disc(4, 4, 2)));
+}
+
+TEST_F(RoomTest, ALeaverMayWaitForItsNumbers) {
+  Guest a = enter(), b = enter();
+  look(b, view_all(1));
+  b.eyes->forget_parcels();
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(submit(b, disc(4, 4, 2)));  // more than one turn
+  std::size_t told = 0, users = 0;
+  room->leave_when_told(b.id, [&] { told = b.eyes->acks.size(), users = room->info().users; });
+  EXPECT_EQ(room->info().users, 2u);
+  edit(a, disc(9, 4, 2));
+  EXPECT_EQ(told, 1000u);
+  EXPECT_EQ(users, 1u);
+  EXPECT_TRUE(b.eyes->parcels.empty());
+  EXPECT_EQ(room->info().seq, 1001u);
+}
+
+TEST_F(RoomTest, ALeaverWhoWaitsForNothingIsGoneAtOnce) {
+  Guest a = enter();
+  edit(a, disc(4, 4, 2));
+  int gone = 0;
+  room->leave_when_told(a.id, [&] { ++gone; });
+  EXPECT_EQ(gone, 1);
+  EXPECT_EQ(room->info().users, 0u);
+  room->leave_when_told(a.id, [&] { ++gone; });
+  EXPECT_EQ(gone, 2);
+}
+
+TEST_F(RoomTest, LargeEditsThatChangeNothingAreTakenInTurnsToo) {
+  Guest a = enter();
+  protocol::Edit large = disc(0, 0, 240, false);  // 72 stamps of 62 x 62 chunks
+  large.is_path = true;
+  large.path.assign(72, {0, 0});
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(submit(a, large));
+  std::uint64_t between = 0;
+  room->strand().post([&] { between = room->info().seq; });
+  context.run();
+  EXPECT_EQ(between, 1u);
+  EXPECT_EQ(room->info().seq, 5u);
+}
+
+TEST_F(RoomTest, SoManyPointsMayWaitAndNotOneMore) {
+  Guest a = enter(), b = enter();
+  protocol::Edit longest = disc(0, 0, 0, false);
+  longest.is_path = true;
+  longest.path.assign(1024, {0, 0});
+  for (std::size_t i = 0; i < 4096; ++i) ASSERT_TRUE(submit(i % 2 ? a : b, longest)) << i;
+  const auto refused = submit(b, disc(4, 4, 2));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::too_large);
+  EXPECT_NE(refused.error().detail.find("4194304"), std::string::npos);
+  context.run();
+  EXPECT_EQ(a.eyes->acks.size(), 2048u);
+  for (std::size_t i = 0; i < 4096; ++i) ASSERT_TRUE(submit(a, longest)) << i;
+}
+
+TEST_F(RoomTest, AMistakeOfItsOwnClosesItWithAWord) {
+  struct Broken final : Viewer {
+    void applied(std::vector<protocol::Applied>) override { throw std::runtime_error("broken"); }
+    void deliver(Parcel) override {}
+    void end(protocol::Bye) override {}
+  };
+  Guest a = enter();
+  const ViewerId broken = room->join(std::make_shared<Broken>(), {}).value().viewer;
+  ASSERT_TRUE(room->submit(broken, {1, 7, disc(4, 4, 2)}));
+  EXPECT_THROW(context.run(), std::runtime_error);
+  ASSERT_TRUE(a.eyes->bye);
+  EXPECT_EQ(a.eyes->bye->failure.code, Code::internal);
+  EXPECT_EQ(room->join(a.eyes, {}).error().code, Code::internal);
 }
 
 TEST_F(RoomTest, SaysByeWhenItIsClosed) {

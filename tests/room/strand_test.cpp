@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <boost/asio/thread_pool.hpp>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -76,6 +77,27 @@ TEST(AsioStrand, WaitsAsLongAsItIsTold) {
   pool.join();
   EXPECT_GE(end - start, 30ms);
   EXPECT_GT(strand->now_ms(), 1'600'000'000'000);
+}
+
+TEST(AsioStrand, OutlivesATaskThatThrows) {
+  boost::asio::thread_pool pool(2);
+  const auto strand = make_asio_strand(pool.get_executor());
+  int ran = 0;
+  strand->post([] { throw std::runtime_error("on purpose"); });
+  strand->post_after(1ms, [] { throw 7; });
+  strand->post([&] { ++ran; });
+  strand->post_after(20ms, [&] { ++ran; });
+  pool.join();
+  EXPECT_EQ(ran, 2);
+}
+
+TEST(ManualContext, GivesOutWhatATaskThrowsAndGoesOn) {
+  ManualContext context;
+  const auto strand = context.make_strand();
+  strand->post([] { throw std::runtime_error("on purpose"); });
+  strand->post([] {});
+  EXPECT_THROW(context.run(), std::runtime_error);
+  EXPECT_EQ(context.run(), 1);
 }
 
 TEST(Entropy, GivesKeysOf128Bits) {
