@@ -4,14 +4,14 @@
 
 namespace earthwork::net {
 
-Connections::Id Connections::add(std::function<void()> stop) {
+std::optional<Connections::Id> Connections::admit(std::size_t most) {
   const std::lock_guard lock(mutex_);
-  if (stopping_) stop();
-  stops_.emplace(++last_, std::move(stop));
+  if (stops_.size() >= most) return std::nullopt;
+  stops_.emplace(++last_, [] {});
   return last_;
 }
 
-void Connections::replace(Id id, std::function<void()> stop) {
+void Connections::on_stop(Id id, std::function<void()> stop) {
   const std::lock_guard lock(mutex_);
   if (stopping_) stop();
   stops_[id] = std::move(stop);

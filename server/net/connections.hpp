@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 
 namespace earthwork::net {
 
@@ -16,14 +17,15 @@ class Connections {
  public:
   using Id = std::uint64_t;
 
-  /// `stop` must be callable from any thread as long as the connection is listed.
-  Id add(std::function<void()> stop);
-  /// The connection is another thing now: an HTTP one became a session.
-  void replace(Id id, std::function<void()> stop);
+  /// Lists one more, unless `most` are listed already.
+  [[nodiscard]] std::optional<Id> admit(std::size_t most);
+  /// How the connection is told to end, from now on: also when an HTTP one became a session. `stop`
+  /// must be callable from any thread as long as the connection is listed.
+  void on_stop(Id id, std::function<void()> stop);
   void remove(Id id);
   [[nodiscard]] std::size_t count() const;
 
-  /// Tells all to end; those that are added later at once. Then waits until none is left, or for
+  /// Tells all to end; those that come later at once. Then waits until none is left, or for
   /// `patience`.
   void stop_all(std::chrono::milliseconds patience);
 

@@ -203,10 +203,11 @@ awaitable<bool> HttpConnection::answer(HttpResponse response, bool keep_alive, b
 
 }  // namespace
 
-awaitable<void> serve_connection(asio::ip::tcp::socket socket, Service service) {
-  const auto connection = std::make_shared<HttpConnection>(std::move(socket), service);
-  const Connections::Id id = service.connections.add([connection] { connection->stop(); });
+awaitable<void> serve_connection(asio::ip::tcp::socket socket, Service service,
+                                 Connections::Id id) {
   try {
+    const auto connection = std::make_shared<HttpConnection>(std::move(socket), service);
+    service.connections.on_stop(id, [connection] { connection->stop(); });
     co_await connection->run(id);
   } catch (const std::exception& error) {
     spdlog::warn("a connection ended: {}", error.what());

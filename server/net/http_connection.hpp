@@ -4,11 +4,14 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
+#include "server/net/connections.hpp"
 #include "server/net/service.hpp"
 
 namespace earthwork::net {
 
-/// Runs the connection to its end; `socket` is on a strand. Does not throw.
-boost::asio::awaitable<void> serve_connection(boost::asio::ip::tcp::socket socket, Service service);
+/// Runs the connection, listed under `id`, to its end, and takes it off the list; `socket` is on a
+/// strand. Does not throw.
+boost::asio::awaitable<void> serve_connection(boost::asio::ip::tcp::socket socket, Service service,
+                                              Connections::Id id);
 
 }  // namespace earthwork::net

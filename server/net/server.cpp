@@ -12,6 +12,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -33,6 +34,18 @@ constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::milliseconds kStopPatience{3500};
 constexpr int kWorkerThreads = 1;
 
+/// Until the context is stopped. What a handler throws has ended that handler; the thread goes on
+/// with the others.
+void keep_running(asio::io_context& context) {
+  while (!context.stopped()) {
+    try {
+      context.run();
+    } catch (const std::exception& error) {
+      spdlog::error("a handler failed: {}", error.what());
+    }
+  }
+}
+
 }  // namespace
 
 /// Destroyed from the bottom up: what holds coroutines and tasks goes before the context that
@@ -46,6 +59,7 @@ struct Server::Running {
 
   void listen();
   asio::awaitable<void> accept();
+  void admit(tcp::socket socket);
 
   asio::io_context context;
   asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(context);
@@ -82,9 +96,21 @@ asio::awaitable<void> Server::Running::accept() {
       co_await pause.async_wait(kAwait);
       continue;
     }
-    if (connections.count() >= limits.connections) continue;  // the socket closes itself
+    admit(std::move(socket));
+  }
+}
+
+/// One that is not admitted is closed.
+void Server::Running::admit(tcp::socket socket) {
+  std::optional<Connections::Id> id;
+  try {
+    id = connections.admit(limits.connections);
+    if (!id) return;
     const auto executor = socket.get_executor();
-    asio::co_spawn(executor, serve_connection(std::move(socket), *service), asio::detached);
+    asio::co_spawn(executor, serve_connection(std::move(socket), *service, *id), asio::detached);
+  } catch (const std::exception& error) {
+    spdlog::warn("a connection could not be served: {}", error.what());
+    if (id) connections.remove(*id);
   }
 }
 
@@ -106,7 +132,7 @@ protocol::Result<std::unique_ptr<Server>> Server::start(const ServerOptions& opt
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int threads = options.threads > 0 ? options.threads : cores;
   for (int i = 0; i < threads; ++i)
-    running->threads.emplace_back([context = &running->context] { context->run(); });
+    running->threads.emplace_back([context = &running->context] { keep_running(*context); });
   return std::unique_ptr<Server>(new Server(std::move(running)));
 }
 

@@ -34,8 +34,26 @@ constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 // Small, so that control never waits behind megabytes that the kernel has already taken.
 constexpr int kSendBufferBytes = 64 * 1024, kSendLowWaterBytes = 16 * 1024;
 
-template <int name>
-using TcpOption = asio::detail::socket_option::integer<IPPROTO_TCP, name>;
+/// A whole number among TCP's socket options, as Asio takes options.
+struct TcpOption {
+  int key = 0, value = 0;
+  template <class Protocol>
+  [[nodiscard]] int level(const Protocol&) const {
+    return IPPROTO_TCP;
+  }
+  template <class Protocol>
+  [[nodiscard]] int name(const Protocol&) const {
+    return key;
+  }
+  template <class Protocol>
+  [[nodiscard]] const int* data(const Protocol&) const {
+    return &value;
+  }
+  template <class Protocol>
+  [[nodiscard]] std::size_t size(const Protocol&) const {
+    return sizeof value;
+  }
+};
 
 /// A rate policy that limits nothing, but is told of every transfer, parts of messages included.
 class ActivityPolicy {
@@ -86,6 +104,8 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   }
 
  private:
+  awaitable<void> converse(std::string handshake);
+  void end();
   void set_options();
   void wake() { readable_.notify(), writable_.notify(); }
   awaitable<void> read();
@@ -113,9 +133,9 @@ void WebSocketSession::set_options() {
   beast::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::send_buffer_size(kSendBufferBytes), ignored);
-  socket.set_option(TcpOption<TCP_NOTSENT_LOWAT>(kSendLowWaterBytes), ignored);
+  socket.set_option(TcpOption{TCP_NOTSENT_LOWAT, kSendLowWaterBytes}, ignored);
   // A peer that is gone without a word acknowledges nothing: the kernel then ends the connection.
-  socket.set_option(TcpOption<TCP_USER_TIMEOUT>(static_cast<int>(limits_.silence.count())),
+  socket.set_option(TcpOption{TCP_USER_TIMEOUT, static_cast<int>(limits_.silence.count())},
                     ignored);
 
   ws_.set_option(websocket::stream_base::timeout{.handshake_timeout = limits_.farewell,
@@ -129,6 +149,22 @@ void WebSocketSession::set_options() {
 }
 
 awaitable<void> WebSocketSession::run(std::string handshake) {
+  try {
+    co_await converse(std::move(handshake));
+  } catch (...) {
+    end();
+    throw;
+  }
+  end();
+}
+
+/// The conversation may outlive the session in its room, and must not wake it then.
+void WebSocketSession::end() {
+  close_socket();
+  conversation_->abandon();
+}
+
+awaitable<void> WebSocketSession::converse(std::string handshake) {
   using namespace asio::experimental::awaitable_operators;
   set_options();
   const auto [error] = co_await ws_.async_accept(asio::buffer(handshake), kAwait);
@@ -136,8 +172,6 @@ awaitable<void> WebSocketSession::run(std::string handshake) {
     opened_ = Clock::now();
     co_await (read() || write() || watch());
   }
-  close_socket();
-  conversation_->abandon();
 }
 
 awaitable<void> WebSocketSession::read() {
@@ -247,7 +281,7 @@ awaitable<void> WebSocketSession::sleep(std::chrono::nanoseconds time) {
 awaitable<void> run_session(asio::ip::tcp::socket socket, std::string handshake, Service service,
                             Connections::Id connection) {
   const auto session = std::make_shared<WebSocketSession>(std::move(socket), service);
-  service.connections.replace(connection, [session] { session->stop(); });
+  service.connections.on_stop(connection, [session] { session->stop(); });
   co_await session->run(std::move(handshake));
 }
 

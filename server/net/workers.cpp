@@ -1,5 +1,8 @@
 #include "server/net/workers.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include <exception>
 #include <utility>
 
 namespace earthwork::net {
@@ -27,6 +30,11 @@ bool Workers::offer(std::function<void()> job) {
   return true;
 }
 
+bool Workers::full() const {
+  const std::lock_guard lock(mutex_);
+  return ending_ || jobs_.size() >= kMaxWaitingJobs;
+}
+
 void Workers::work() {
   for (;;) {
     std::function<void()> job;
@@ -37,7 +45,11 @@ void Workers::work() {
       job = std::move(jobs_.front());
       jobs_.pop_front();
     }
-    job();
+    try {
+      job();
+    } catch (const std::exception& error) {
+      spdlog::error("a job failed: {}", error.what());
+    }
   }
 }
 

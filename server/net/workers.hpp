@@ -21,13 +21,16 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// False when kMaxWaitingJobs wait already: the job is not taken. A job must not throw.
+  /// False when kMaxWaitingJobs wait already: the job is not taken. What a job
+  /// throws is logged, and ends that job alone.
   [[nodiscard]] bool offer(std::function<void()> job);
+  /// Whether a job would be refused now: asked before making what a job would need.
+  [[nodiscard]] bool full() const;
 
  private:
   void work();
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> jobs_;
   bool ending_ = false;

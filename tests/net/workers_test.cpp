@@ -5,6 +5,9 @@
 
 #include <atomic>
 #include <future>
+#include <memory>
+#include <stdexcept>
+#include <thread>
 
 namespace earthwork::net {
 namespace {
@@ -26,8 +29,11 @@ TEST(Workers, RefuseMoreThanMayWait) {
       go_on.get_future().wait();
     }));
     running.get_future().wait();
-    for (std::size_t i = 0; i < kMaxWaitingJobs; ++i)
+    for (std::size_t i = 0; i < kMaxWaitingJobs; ++i) {
+      EXPECT_FALSE(workers.full()) << i;
       ASSERT_TRUE(workers.offer([&] { ++ran; })) << i;
+    }
+    EXPECT_TRUE(workers.full());
     EXPECT_FALSE(workers.offer([&] { ++ran; }));
     go_on.set_value();
     std::promise<void> last;
@@ -37,19 +43,29 @@ TEST(Workers, RefuseMoreThanMayWait) {
   EXPECT_EQ(ran, static_cast<int>(kMaxWaitingJobs));
 }
 
+TEST(Workers, OutliveAJobThatThrows) {
+  Workers workers(1);
+  std::promise<int> done;
+  ASSERT_TRUE(workers.offer([] { throw std::runtime_error("on purpose"); }));
+  ASSERT_TRUE(workers.offer([&] { done.set_value(7); }));
+  EXPECT_EQ(done.get_future().get(), 7);
+}
+
 TEST(Workers, DropWhatWaitsAtTheEnd) {
   std::promise<void> running, go_on;
   std::atomic<bool> ran{false};
+  auto held = std::make_shared<int>(7);
+  const std::weak_ptr<int> waiting = held;
   auto workers = std::make_unique<Workers>(1);
   ASSERT_TRUE(workers->offer([&] {
     running.set_value();
     go_on.get_future().wait();
   }));
   running.get_future().wait();
-  ASSERT_TRUE(workers->offer([&] { ran = true; }));
+  ASSERT_TRUE(workers->offer([&ran, kept = std::move(held)] { ran = true; }));
   std::thread ending([&] { workers.reset(); });
-  // Refused from the moment on that the end began; only then may the running job finish.
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  // The running job may finish once the waiting one was let go of.
+  while (!waiting.expired()) std::this_thread::yield();
   go_on.set_value();
   ending.join();
   EXPECT_FALSE(ran);
