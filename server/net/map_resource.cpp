@@ -22,6 +22,18 @@ HttpResponse busy() {
   return response;
 }
 
+/// A task for a room's strand that answers; when it throws, the answer is that it did.
+template <class Task>
+std::function<void()> answering(Respond respond, Task task) {
+  return [respond = std::move(respond), task = std::move(task)] {
+    try {
+      task();
+    } catch (const std::exception& error) {
+      respond(problem({Code::internal, error.what(), {}}));
+    }
+  };
+}
+
 /// Answers with what `make` gives, made by the workers.
 void answer_later(Workers& workers, Respond respond, std::function<HttpResponse()> make) {
   const bool taken = workers.offer([respond, make = std::move(make)] {
@@ -36,14 +48,15 @@ void answer_later(Workers& workers, Respond respond, std::function<HttpResponse(
 
 /// Runs `then` on the room's strand as soon as every mesh is up to date there. The work is cut into
 /// pieces, so that edits get between; they grow, so that it ends however many edits there are.
-void with_meshes(const RoomPointer& room, std::function<void(Room&)> then,
+void with_meshes(const RoomPointer& room, Respond respond, std::function<void(Room&)> then,
                  std::size_t budget_chunks = 64) {
-  room->strand().post([room, then = std::move(then), budget_chunks] {
+  auto piece = [room, respond, then = std::move(then), budget_chunks] {
     if (room->refresh_meshes(budget_chunks))
       then(*room);
     else
-      with_meshes(room, then, budget_chunks * 2);
-  });
+      with_meshes(room, respond, then, budget_chunks * 2);
+  };
+  room->strand().post(answering(std::move(respond), std::move(piece)));
 }
 
 ordered_json by_case(const std::array<std::uint64_t, 16>& counts) {
@@ -82,7 +95,7 @@ ordered_json written(const room::RoomFigures& figures, int resolution) {
 }  // namespace
 
 void describe_map(const RoomPointer& room, int status, Respond respond) {
-  room->strand().post([room, status, respond = std::move(respond)] {
+  auto describe = [room, status, respond] {
     const room::RoomInfo info = room->info();
     HttpResponse response =
         json_response(status, {{"name", room->name()},
@@ -94,17 +107,19 @@ void describe_map(const RoomPointer& room, int status, Respond respond) {
                                {"users", info.users}});
     if (status == 201) response.headers.emplace_back("Location", "/api/maps/" + room->name());
     respond(std::move(response));
-  });
+  };
+  room->strand().post(answering(std::move(respond), std::move(describe)));
 }
 
 void give_figures(const RoomPointer& room, Respond respond) {
-  with_meshes(room, [respond = std::move(respond)](Room& live) {
+  with_meshes(room, respond, [respond](Room& live) {
     respond(json_response(200, written(live.figures(), live.settings().chunk_resolution)));
   });
 }
 
 void give_states(const RoomPointer& room, std::uint64_t layer, Workers& workers, Respond respond) {
-  room->strand().post([room, layer, &workers, respond = std::move(respond)] {
+  auto draw = [room, layer, &workers, respond] {
+    if (workers.full()) return respond(busy());
     auto drawn = room->states(layer);
     if (!drawn) {
       const bool too_large = drawn.error().code == Code::too_large;
@@ -116,13 +131,13 @@ void give_states(const RoomPointer& room, std::uint64_t layer, Workers& workers,
       if (!png) return problem(png.error());
       return {.status = 200, .content_type = "image/png", .headers = {}, .body = std::move(*png)};
     });
-  });
+  };
+  room->strand().post(answering(std::move(respond), std::move(draw)));
 }
 
 void give_export(const RoomPointer& room, ExportQuestion question, Workers& workers,
                  Respond respond) {
-  auto answer = [room, question = std::move(question), &workers,
-                 respond = std::move(respond)](Room& live) {
+  auto answer = [room, question = std::move(question), &workers, respond](Room& live) {
     room::MeshSnapshot snapshot = live.meshes();
     if (question.seq && *question.seq != snapshot.seq) {
       return respond(problem(
@@ -143,7 +158,7 @@ void give_export(const RoomPointer& room, ExportQuestion question, Workers& work
               .body = std::move(*file)};
     });
   };
-  with_meshes(room, std::move(answer));
+  with_meshes(room, std::move(respond), std::move(answer));
 }
 
 }  // namespace earthwork::net

@@ -1,7 +1,10 @@
 /// What HTTP shows of one map: its description, figures, voxel states and mesh.
 ///
-/// Each function answers through `respond`, later and from another thread: what needs the map runs
-/// on the room's strand in short pieces, what only needs a copy runs on the workers.
+/// Each function answers through `respond`, later and from another thread. Meshes are brought up to
+/// date on the room's strand in pieces, so that edits get between; then figures are counted, states
+/// drawn and records listed there in one piece each, which for a large map holds up its editors.
+/// Files are encoded by the workers, from copies; when those have too much to do the answer is 503,
+/// before a picture is drawn.
 #pragma once
 
 #include <memory>

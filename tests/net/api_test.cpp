@@ -5,6 +5,7 @@
 
 #include <future>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "server/room/manual_context.hpp"
 #include "tests/net/figure_names.hpp"
@@ -237,6 +238,27 @@ TEST_F(ApiTest, AnExportHasATag) {
   const auto changed = ask(again);
   EXPECT_EQ(changed.status, 200);
   EXPECT_NE(header(changed, "ETag"), tag);
+}
+
+TEST_F(ApiTest, BusyWorkersAreSaidSoBeforeAPictureIsDrawn) {
+  ASSERT_EQ(create(R"({"name":"a"})").status, 201);
+  std::promise<void> running, go_on;
+  ASSERT_TRUE(workers.offer([&] {
+    running.set_value();
+    go_on.get_future().wait();
+  }));
+  running.get_future().wait();
+  while (!workers.full()) ASSERT_TRUE(workers.offer([] {}));
+  // There is nothing to draw, but nobody has looked.
+  for (const char* file : {"states.png", "export.glb"}) {
+    const auto refused = get(std::string("/api/maps/a/") + file);
+    is_problem(refused, 503);
+    EXPECT_EQ(header(refused, "Retry-After"), "1");
+  }
+  EXPECT_EQ(get("/api/maps/a/figures").status, 200);
+  go_on.set_value();
+  while (workers.full()) std::this_thread::yield();
+  is_problem(get("/api/maps/a/states.png"), 409);
 }
 
 TEST_F(ApiTest, OnlyTheMapAsItIsCanBeExported) {
