@@ -4,6 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -13,6 +14,7 @@
 #include <boost/beast/websocket/stream.hpp>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace earthwork::net {
 namespace {
@@ -23,7 +25,7 @@ namespace http_ns = beast::http;
 using asio::ip::tcp;
 using Error = beast::error_code;
 
-constexpr std::chrono::seconds kPatience{20};
+constexpr std::chrono::minutes kPatience{1};
 
 tcp::socket connected(asio::io_context& context, std::uint16_t port) {
   tcp::socket socket(context);
@@ -38,6 +40,7 @@ std::string own_host(std::uint16_t port) { return "127.0.0.1:" + std::to_string(
 struct TcpClient::Impl {
   asio::io_context context;
   tcp::socket socket;
+  std::string ahead;  // read, and not given out yet
   explicit Impl(std::uint16_t port) : socket(connected(context, port)) {}
 };
 
@@ -50,8 +53,21 @@ bool TcpClient::send(std::string_view bytes) {
   return !error;
 }
 
+std::string TcpClient::read_head() {
+  std::string& bytes = impl_->ahead;
+  std::optional<std::size_t> length;
+  asio::async_read_until(impl_->socket, asio::dynamic_buffer(bytes), "\r\n\r\n",
+                         [&](Error error, std::size_t n) { length = error ? bytes.size() : n; });
+  impl_->context.restart();
+  impl_->context.run_for(kPatience);
+  if (!length) impl_->socket.cancel(), impl_->context.run();
+  std::string head = bytes.substr(0, *length);
+  bytes.erase(0, *length);
+  return head;
+}
+
 std::string TcpClient::read_to_end(std::chrono::milliseconds patience, bool& closed) {
-  std::string bytes;
+  std::string bytes = std::exchange(impl_->ahead, {});
   closed = false;
   asio::async_read(impl_->socket, asio::dynamic_buffer(bytes),
                    [&](Error, std::size_t) { closed = true; });

@@ -18,8 +18,12 @@ class TcpClient {
 
   /// False when the server has closed.
   bool send(std::string_view bytes);
+  /// The head of an answer, its blank line included; what came behind it is read next. Without one,
+  /// what came until the server closed, or for a minute.
+  std::string read_head();
   /// All that comes until the server closes; `closed` says whether it did within the time.
   std::string read_to_end(std::chrono::milliseconds patience, bool& closed);
+  std::string read_to_end(bool& closed) { return read_to_end(std::chrono::minutes(1), closed); }
 
  private:
   struct Impl;
@@ -69,7 +73,7 @@ class SocketClient {
     std::string bytes;
   };
   /// The next message; `nothing` when none comes in time, and then the client is done for.
-  Received receive(std::chrono::milliseconds patience = std::chrono::seconds(10));
+  Received receive(std::chrono::milliseconds patience = std::chrono::minutes(1));
   /// The next text, binary ones skipped; empty when there is none.
   std::string receive_text();
 
