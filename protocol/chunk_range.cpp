@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/limits.hpp"
+
 namespace earthwork::protocol {
 namespace {
 
@@ -46,8 +48,8 @@ ChunkRange map_extent(const MapSettings& settings) {
     const auto& c = *settings.chunks;
     return {c[0], c[1], c[2], c[3]};
   }
-  const std::int32_t n = 1'000'000 / settings.chunk_resolution;
-  return {-n, -n, n + 1, n + 1};
+  const std::int32_t n = kWorldVoxels / settings.chunk_resolution;
+  return {-n, -n, n, n};
 }
 
 ChunkRange chunks_of_voxels(const MapRect& rect, const MapSettings& settings) {

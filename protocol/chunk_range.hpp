@@ -26,8 +26,7 @@ struct ChunkRange {
 
 [[nodiscard]] ChunkRange intersection(const ChunkRange& a, const ChunkRange& b);
 
-/// All chunks a map can have: its bounds, or the chunks that hold a voxel with coordinates in
-/// -10^6 .. 10^6.
+/// All chunks a map can have: its bounds, or those within kWorldVoxels of 0.
 [[nodiscard]] ChunkRange map_extent(const MapSettings& settings);
 
 /// The chunks of the map whose voxels' squares, [cx R s, (cx + 1) R s) and y alike, meet `rect`.

@@ -21,10 +21,13 @@ inline constexpr std::uint64_t kMaxEditVisits = std::uint64_t{1}
                                                 << 24;  ///< Voxels, stamps added up.
 inline constexpr std::uint64_t kMaxEditChunks = 4096;
 inline constexpr std::uint64_t kMaxViewChunks = 16384;
-inline constexpr std::int32_t kMaxChunkCoordinate = 125'000;  ///< 10^6 voxels at resolution 8.
-inline constexpr double kMaxHeight = 1e6;                     ///< Of a wall's ends, map units.
-inline constexpr std::size_t kMaxNameBytes = 64;              ///< Of a map.
-inline constexpr std::size_t kMaxNameCharacters = 64;         ///< Of a person or a layer.
+/// Where a map without bounds ends, in voxels from 0: past all that a stencil of the largest radius
+/// can reach from the furthest centre, and a whole number of chunks of any size.
+inline constexpr std::int32_t kWorldVoxels = 1'000'576;
+inline constexpr std::int32_t kMaxChunkCoordinate = kWorldVoxels / 8;
+inline constexpr double kMaxHeight = 1e6;              ///< Of a wall's ends, map units.
+inline constexpr std::size_t kMaxNameBytes = 64;       ///< Of a map.
+inline constexpr std::size_t kMaxNameCharacters = 64;  ///< Of a person or a layer.
 inline constexpr std::size_t kMaxLayers = 16;
 
 inline constexpr std::size_t kMaxFrameBytes = 16 * 1024;     ///< A binary message.

@@ -36,7 +36,7 @@ std::array<std::int32_t, 4> read_chunks(JsonFields& in, int resolution) {
   if (chunks[0] < world.x0 || chunks[1] < world.y0 || chunks[2] > world.x1 || chunks[3] > world.y1)
     in.refuse(Code::out_of_range, "chunks",
               "reaches beyond " + std::to_string(world.x0) + " .. " + std::to_string(world.x1) +
-                  ", which is 10^6 voxels");
+                  ", which is " + std::to_string(kWorldVoxels) + " voxels");
   return chunks;
 }
 

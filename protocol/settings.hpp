@@ -21,7 +21,7 @@ struct LayerSettings {
 };
 
 /// Ranges: chunk_resolution 8, 16, 32 or 64; chunks [cx0, cy0, cx1, cy1), not empty, inside the
-/// world of 10^6 voxels either way, or none; voxel_size finite, 1e-6 .. 1e6; max_feature_angle
+/// world of kWorldVoxels either way, or none; voxel_size finite, 1e-6 .. 1e6; max_feature_angle
 /// 0 < a <= 175 degrees; 1 .. 16 layers.
 struct MapSettings {
   int chunk_resolution = 32;

@@ -6,8 +6,10 @@
 
 namespace earthwork::voxel {
 
-inline constexpr int kMaxResolution = 64;    ///< Voxels along a chunk's side, at most.
-inline constexpr int kMaxVoxel = 1'000'000;  ///< Voxel coordinates reach from -this to this.
+inline constexpr int kMaxResolution = 64;  ///< Voxels along a chunk's side, at most.
+/// Where a map without bounds ends, in voxels from 0: all that a stencil of 512 voxels centred
+/// within 10^6 can reach, and a whole number of chunks of any size.
+inline constexpr int kWorldVoxels = 1'000'576;
 inline constexpr int kMaxLayers = 16;
 
 /// Chunks x0 <= x < x1, y0 <= y < y1.
@@ -27,10 +29,10 @@ struct Grid {
   int layers = 1;
   std::optional<ChunkRect> bounds;  ///< Nothing exists beyond them; without them, beyond `world()`.
 
-  /// The chunks that hold a voxel with coordinates in -10^6 .. 10^6; a chunk at the end is whole.
+  /// All ground there can be: the same voxels at every resolution.
   ChunkRect world() const {
-    const std::int32_t n = kMaxVoxel / resolution;
-    return {-n, -n, n + 1, n + 1};
+    const std::int32_t n = kWorldVoxels / resolution;
+    return {-n, -n, n, n};
   }
   ChunkRect extent() const { return bounds ? *bounds : world(); }
 };

@@ -6,7 +6,7 @@ const MIN_LENGTH = 22;
 const MAX_LENGTH = 1048576;
 const MAX_VERTICES = 65535;
 const COORDINATE_END = 2129920;
-const MAX_CHUNK_COORDINATE = 125000;
+const MAX_CHUNK_COORDINATE = 125072;
 
 export class BadFrame extends Error {}
 

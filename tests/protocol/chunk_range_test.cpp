@@ -16,12 +16,12 @@ TEST(ChunkRange, CountsWhatItHolds) {
   EXPECT_EQ((ChunkRange{-1, -1, 2, 3}.count()), 12u);
   EXPECT_EQ((ChunkRange{2, 0, 2, 5}.count()), 0u);
   EXPECT_EQ((ChunkRange{3, 0, 2, 5}.count()), 0u);
-  EXPECT_EQ((ChunkRange{-125000, -125000, 125001, 125001}.count()), 250001ull * 250001);
+  EXPECT_EQ((ChunkRange{-125072, -125072, 125072, 125072}.count()), 250144ull * 250144);
 }
 
 TEST(ChunkRange, OfAnUnboundedMapIsTheWorld) {
-  EXPECT_EQ(map_extent(map_of(64)), (ChunkRange{-15625, -15625, 15626, 15626}));
-  EXPECT_EQ(map_extent(map_of(8)), (ChunkRange{-125000, -125000, 125001, 125001}));
+  EXPECT_EQ(map_extent(map_of(64)), (ChunkRange{-15634, -15634, 15634, 15634}));
+  EXPECT_EQ(map_extent(map_of(8)), (ChunkRange{-125072, -125072, 125072, 125072}));
 }
 
 TEST(ChunkRange, OfVoxelsEndsAtTheNextChunksFirstVoxel) {

@@ -94,15 +94,15 @@ TEST(ChunkRecord, BoundsItsHead) {
   bytes[kLayer] = 16;
   EXPECT_EQ(refusal(bytes), "layer: is beyond the limit of 15");
   ChunkRecord far = removed_record();
-  far.key.x = -125'000;
+  far.key.x = -125'072;
   EXPECT_EQ(refusal(encoded(far)), "good");
-  far.key.x = -125'001;
-  EXPECT_EQ(refusal(encoded(far)), "key: is beyond the limit of 125000");
-  far.key = {0, 0, 0, 125'001};
-  EXPECT_EQ(refusal(encoded(far)), "key: is beyond the limit of 125000");
+  far.key.x = -125'073;
+  EXPECT_EQ(refusal(encoded(far)), "key: is beyond the limit of 125072");
+  far.key = {0, 0, 0, 125'073};
+  EXPECT_EQ(refusal(encoded(far)), "key: is beyond the limit of 125072");
   bytes = encoded(removed_record());
   bytes[kX + 3] = '\x80';
-  EXPECT_EQ(refusal(bytes), "key: is beyond the limit of 125000");
+  EXPECT_EQ(refusal(bytes), "key: is beyond the limit of 125072");
 }
 
 TEST(ChunkRecord, BoundsItsCountsBeforeItTakesMemory) {

@@ -70,11 +70,11 @@ TEST(Settings, NameTheFieldThatIsWrong) {
 }
 
 TEST(Settings, KeepChunksInsideTheWorld) {
-  EXPECT_EQ(verdict(R"({"chunk_resolution":64,"chunks":[-15625,-15625,15626,15626]})"), "good");
-  EXPECT_EQ(verdict(R"({"chunk_resolution":64,"chunks":[-15626,0,1,1]})"),
-            "out_of_range: chunks: reaches beyond -15625 .. 15626, which is 10^6 voxels");
-  EXPECT_EQ(verdict(R"({"chunk_resolution":8,"chunks":[0,0,125001,1]})"), "good");
-  EXPECT_NE(verdict(R"({"chunk_resolution":8,"chunks":[0,0,125002,1]})"), "good");
+  EXPECT_EQ(verdict(R"({"chunk_resolution":64,"chunks":[-15634,-15634,15634,15634]})"), "good");
+  EXPECT_EQ(verdict(R"({"chunk_resolution":64,"chunks":[-15635,0,1,1]})"),
+            "out_of_range: chunks: reaches beyond -15634 .. 15634, which is 1000576 voxels");
+  EXPECT_EQ(verdict(R"({"chunk_resolution":8,"chunks":[0,0,125072,1]})"), "good");
+  EXPECT_NE(verdict(R"({"chunk_resolution":8,"chunks":[0,0,125073,1]})"), "good");
   EXPECT_EQ(verdict(R"({"chunks":[0,0,0,1]})"),
             "out_of_range: chunks: [cx0, cy0, cx1, cy1] needs cx0 < cx1 and cy0 < cy1");
   EXPECT_EQ(verdict(R"({"chunks":[0,0,99999999999,1]})"),

@@ -214,6 +214,17 @@ TEST(Map, ReachesAMillionVoxelsEitherWay) {
   }
 }
 
+TEST(Map, TheWorldEndsAlikeForChunksOfAnySize) {
+  const Stencil last{
+      .x = 1e6, .y = -1e6, .radius = 512, .shape = Shape::circle, .fill = Fill::filled};
+  Map small(Grid{.resolution = 8, .bounds = {}}), large(Grid{.resolution = 64, .bounds = {}});
+  small.apply(0, {&last, 1});
+  large.apply(0, {&last, 1});
+  EXPECT_EQ(small.filled_voxels(), large.filled_voxels());
+  EXPECT_TRUE(large.filled(0, 1000511, -1000000));
+  EXPECT_TRUE(large.filled(0, 1000000, -1000512));
+}
+
 TEST(Map, NothingIsKeptBeyondTheBounds) {
   Map map(Grid{.resolution = 8, .bounds = ChunkRect{0, 0, 1, 1}});
   const Stencil big{.x = 4, .y = 4, .radius = 100, .shape = Shape::square, .fill = Fill::filled};
