@@ -187,7 +187,8 @@ TEST(Timing, WritesOneLineWithMedians) {
                       .figures = {{"vertices", 7}}};
   EXPECT_THAT(to_line(report),
               StartsWith(R"({"tool":"t","data":"d","threads":2,"reps":3,"wall_s":2,"user_s":1,)"
-                         R"("sys_s":2,"work":12,"unit":"cells","per_wall_s":6,"per_cpu_s":4,)"
+                         R"("sys_s":2,"wall_min_s":1,"wall_max_s":3,"work":12,)"
+                         R"("unit":"cells","per_wall_s":6,"per_cpu_s":4,)"
                          R"("vertices":7,"peak_rss_mb":)"));
 }
 
@@ -234,14 +235,13 @@ TEST(Program, SaysWhatIsWrongWithItsArguments) {
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_THAT(outcome.output, HasSubstr(line)) << arguments;
   };
-  expect("", "usage: ");
-  expect("4d x 1 1", "usage: ");
+  expect("", "2d, edit or poly with FIELD THREADS REPS");
+  expect("4d x 1 1", "2d, edit or poly with FIELD THREADS REPS");
   expect("3d x 1 1", "there are no 3D maps yet");
   expect("2d missing.f32 1 1", "missing.f32: cannot be opened");
   expect("2d missing.f32 0 1", "THREADS is a number from 1 to 64");
   expect("2d missing.f32 65 1", "THREADS is a number from 1 to 64");
   expect("2d missing.f32 1 1001", "REPS is a number from 1 to 1000");
-  expect("edit missing.f32 2 1", "only 2d runs on more than one thread");
   const std::string path = scratch("bench_small.f32");
   write_field(make_field(63, 64, [](double, double) { return 1; }), path);
   expect("2d " + path + " 1 1", "smaller than a 64 x 64 chunk");

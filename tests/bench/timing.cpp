@@ -63,11 +63,15 @@ std::string to_line(const Report& report) {
   const double wall_s = median(report.samples, &Sample::wall_s);
   const double user_s = median(report.samples, &Sample::user_s);
   const double sys_s = median(report.samples, &Sample::sys_s);
+  const auto [least, most] =
+      std::minmax_element(report.samples.begin(), report.samples.end(),
+                          [](const Sample& a, const Sample& b) { return a.wall_s < b.wall_s; });
   std::string line = fmt::format(
       R"({{"tool":"{}","data":"{}","threads":{},"reps":{},"wall_s":{:.6g},"user_s":{:.6g},)"
-      R"("sys_s":{:.6g},"work":{:.0f},"unit":"{}","per_wall_s":{:.6g},"per_cpu_s":{:.6g})",
+      R"("sys_s":{:.6g},"wall_min_s":{:.6g},"wall_max_s":{:.6g},"work":{:.0f},"unit":"{}","per_wall_s":{:.6g},"per_cpu_s":{:.6g})",
       report.tool, report.data, report.threads, report.samples.size(), wall_s, user_s, sys_s,
-      report.work, report.unit, rate(report.work, wall_s), rate(report.work, user_s + sys_s));
+      least->wall_s, most->wall_s, report.work, report.unit, rate(report.work, wall_s),
+      rate(report.work, user_s + sys_s));
   for (const auto& [key, value] : report.figures) {
     line += fmt::format(R"(,"{}":{:.10g})", key, value);
   }
