@@ -15,6 +15,7 @@ struct PngFile {
   int colour_type = PNG_COLOR_TYPE_GRAY, depth = 8;
   bool interlaced = false;
   std::vector<png_color> palette = {};
+  double gamma = 0;                             // 0: none is written
   std::vector<std::vector<std::uint8_t>> rows;  // packed as the file has them
 };
 
@@ -28,6 +29,7 @@ inline void write_png(const std::string& path, const PngFile& png) {
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (!png.palette.empty())
     png_set_PLTE(writer, info, png.palette.data(), static_cast<int>(png.palette.size()));
+  if (png.gamma > 0) png_set_gAMA(writer, info, png.gamma);
   std::vector<png_bytep> rows;
   auto copy = png.rows;
   for (auto& row : copy) rows.push_back(row.data());

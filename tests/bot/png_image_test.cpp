@@ -116,6 +116,40 @@ TEST_F(PngImage, ReadsInterlacedFiles) {
   EXPECT_EQ(read(png), expected);
 }
 
+TEST_F(PngImage, ReadsInterlacedFilesOfSixteenBits) {
+  PngFile png{.width = 16, .height = 16, .depth = 16, .interlaced = true, .rows = {}};
+  png.rows.assign(16, std::vector<std::uint8_t>(32, 255));
+  png.rows[3][6] = png.rows[3][7] = 0;
+  Bitmap expected(16, 16);
+  expected.set(3, 3, true);
+  EXPECT_EQ(read(png), expected);
+}
+
+TEST_F(PngImage, TakesTheUpperHalfOfSixteenBits) {
+  EXPECT_EQ(
+      read({.width = 3, .height = 1, .depth = 16, .rows = {{0x7f, 0xff, 0x80, 0x00, 0x80, 0xff}}}),
+      picture({"#.."}));
+}
+
+TEST_F(PngImage, TakesSamplesAsTheyStandWhateverTheGamma) {
+  for (const double gamma : {1.0, 0.45455, 0.2}) {
+    EXPECT_EQ(read({.width = 4, .height = 1, .gamma = gamma, .rows = {{60, 127, 128, 190}}}),
+              picture({"##.."}));
+    EXPECT_EQ(read({.width = 2,
+                    .height = 1,
+                    .depth = 16,
+                    .gamma = gamma,
+                    .rows = {{0x7f, 0xff, 0x80, 0x00}}}),
+              picture({"#."}));
+    EXPECT_EQ(read({.width = 2,
+                    .height = 1,
+                    .colour_type = PNG_COLOR_TYPE_RGB_ALPHA,
+                    .gamma = gamma,
+                    .rows = {{127, 127, 127, 255, 128, 128, 128, 255}}}),
+              picture({"#."}));
+  }
+}
+
 TEST_F(PngImage, NamesAFileThatIsNotThere) {
   const auto result = read_png((folder_ / "nothing.png").string(), 128, Ink::dark);
   ASSERT_FALSE(result);
