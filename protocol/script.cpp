@@ -1,5 +1,7 @@
 #include "protocol/script.hpp"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -22,6 +24,11 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
+bool has_a_field_of_an_edit(const JsonFields& line) {
+  constexpr std::array kFields{"stencil", "fill", "x", "y", "path", "radius", "layer", "stroke"};
+  return std::ranges::any_of(kFields, [&](const char* field) { return line.has(field); });
+}
+
 /// Adds what `line` holds to `script`.
 Result<void> take_step(std::string_view line, Script& script) {
   auto read = read_script_line(line);
@@ -30,7 +37,7 @@ Result<void> take_step(std::string_view line, Script& script) {
     script.steps.emplace_back(std::move(*edit));
   } else if (const auto* wait = std::get_if<Wait>(&*read)) {
     script.steps.emplace_back(*wait);
-  } else {
+  } else if (!std::holds_alternative<Note>(*read)) {
     if (script.settings || !script.steps.empty())
       return fail(Code::bad_message, "map: settings stand on the first line only", "map");
     script.settings = std::get<MapSettings>(std::move(*read));
@@ -50,9 +57,9 @@ Result<ScriptLine> read_script_line(std::string_view line) {
   if (in.has("wait_ms")) return in.result<ScriptLine>(Wait{in.integer("wait_ms", {0, kMaxWaitMs})});
   if (in.has("generate"))
     in.refuse(Code::not_supported, "generate", "generators are not offered");
-  else
+  else if (has_a_field_of_an_edit(in))
     in.refuse(Failure{Code::bad_message, "not a line with map, stencil or wait_ms", {}});
-  return in.result<ScriptLine>(Wait{});
+  return in.result<ScriptLine>(Note{});
 }
 
 Result<Script> read_script(std::string_view text) {

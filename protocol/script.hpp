@@ -19,8 +19,13 @@ struct Wait {
   friend bool operator==(const Wait&, const Wait&) = default;
 };
 
+/// A line that has nothing to say to a bot.
+struct Note {
+  friend bool operator==(const Note&, const Note&) = default;
+};
+
 using ScriptStep = std::variant<Edit, Wait>;
-using ScriptLine = std::variant<MapSettings, Edit, Wait>;
+using ScriptLine = std::variant<MapSettings, Edit, Wait, Note>;
 
 struct Script {
   std::optional<MapSettings> settings;  ///< None when the first line is not settings.
@@ -29,10 +34,11 @@ struct Script {
 };
 
 /// One line, not blank, with or without its line break: an object with "map", "stencil" or
-/// "wait_ms". Unknown keys are ignored. The line obeys the limits of a control message.
+/// "wait_ms", or one with unknown keys alone, which is a note. Unknown keys are ignored; other keys
+/// of an edit without "stencil" are bad_message. The line obeys the limits of a control message.
 [[nodiscard]] Result<ScriptLine> read_script_line(std::string_view line);
 
-/// A whole script. Blank lines are skipped; settings stand on the first line that is not blank, or
+/// A whole script. Blank lines and notes are skipped; settings stand on the first other line, or
 /// nowhere. A failure's detail begins with "line N: ", counted from 1.
 [[nodiscard]] Result<Script> read_script(std::string_view text);
 

@@ -32,10 +32,27 @@ TEST(ScriptLine, BoundsAWait) {
 }
 
 TEST(ScriptLine, NamesWhatItIsNot) {
-  EXPECT_EQ(read_script_line(R"({"note":"nothing"})").error().detail,
-            "not a line with map, stencil or wait_ms");
+  for (const char* line : {R"({"fill":true})", R"({"x":1,"y":2,"radius":3})", R"({"path":[[1,2]]})",
+                           R"({"layer":0,"note":"no stencil"})", R"({"stroke":1})"})
+    EXPECT_EQ(read_script_line(line).error().detail, "not a line with map, stencil or wait_ms");
   EXPECT_EQ(read_script_line("7").error().code, Code::bad_message);
   EXPECT_EQ(read_script_line(R"({"generate":"rings"})").error().code, Code::not_supported);
+}
+
+TEST(ScriptLine, IsANoteWhenItHasUnknownKeysAlone) {
+  for (const char* line : {R"({"note":"hi"})", R"({"type":"edit","author":[1]})", "{}"})
+    EXPECT_TRUE(std::holds_alternative<Note>(read_script_line(line).value())) << line;
+}
+
+TEST(Script, SkipsNotesLikeBlankLines) {
+  const std::string note = "{\"note\":\"hi\"}\n";
+  const auto script = read_script(note + "{\"map\":{\"chunk_resolution\":8}}\n" + note + kEdit +
+                                  "\n" + note + "{\"wait_ms\":5}");
+  ASSERT_TRUE(script) << script.error().detail;
+  EXPECT_EQ(script->settings->chunk_resolution, 8);
+  ASSERT_EQ(script->steps.size(), 2u);
+  EXPECT_EQ(refusal(note + "{\"fill\":true}"),
+            "bad_message: line 2: not a line with map, stencil or wait_ms");
 }
 
 TEST(Script, IsReadLineByLine) {
