@@ -15,6 +15,17 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+/// "name" of "name:80", "[::1]" of "[::1]:80"; what has no port as it is.
+std::string_view without_port(std::string_view host) {
+  const std::size_t colon = host.rfind(':');
+  if (colon == std::string_view::npos) return host;
+  const bool address = host.starts_with('[');
+  if (address ? host.find(']', colon) != std::string_view::npos : host.find(':') != colon) {
+    return host;
+  }
+  return host.substr(0, colon);
+}
+
 }  // namespace
 
 Access::Access(const ListenAddress& listen, const std::vector<std::string>& extra) {
@@ -25,11 +36,18 @@ Access::Access(const ListenAddress& listen, const std::vector<std::string>& extr
     // Browsers leave out the port that http has anyway.
     if (listen.port == 80) hosts_.push_back(lower(address.host_text()));
   }
-  for (const std::string& host : extra) hosts_.push_back(lower(host));
+  for (const std::string& host : extra) {
+    const std::string name = lower(host);
+    (without_port(name) == name ? any_port_ : hosts_).push_back(name);
+  }
 }
 
 bool Access::allowed(std::string_view host) const {
-  return std::find(hosts_.begin(), hosts_.end(), lower(host)) != hosts_.end();
+  const std::string name = lower(host);
+  const auto holds = [](const std::vector<std::string>& names, std::string_view wanted) {
+    return std::find(names.begin(), names.end(), wanted) != names.end();
+  };
+  return holds(hosts_, name) || holds(any_port_, without_port(name));
 }
 
 protocol::Result<void> Access::check(const std::optional<std::string>& host,

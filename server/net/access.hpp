@@ -17,7 +17,7 @@ namespace earthwork::net {
 class Access {
  public:
   /// The listening address, localhost, 127.0.0.1 and [::1], each with `listen.port`, and `extra`
-  /// ("HOST" or "HOST:PORT").
+  /// ("HOST", with any port or none, or "HOST:PORT").
   Access(const ListenAddress& listen, const std::vector<std::string>& extra);
 
   /// Checks the Host and Origin headers of one request. A missing or unknown Host and an Origin
@@ -28,7 +28,7 @@ class Access {
  private:
   [[nodiscard]] bool allowed(std::string_view host) const;
 
-  std::vector<std::string> hosts_;  // lower case
+  std::vector<std::string> hosts_, any_port_;  // lower case
 };
 
 }  // namespace earthwork::net

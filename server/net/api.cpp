@@ -1,5 +1,7 @@
 #include "server/net/api.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -44,7 +46,9 @@ bool is_json(const std::optional<std::string>& content_type) {
   std::string_view type = *content_type;
   type = type.substr(0, type.find(';'));
   type = type.substr(0, type.find_last_not_of(" \t") + 1);
-  return type == "application/json";
+  constexpr std::string_view kJson = "application/json";
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return std::equal(type.begin(), type.end(), kJson.begin(), kJson.end(), same);
 }
 
 HttpResponse not_json() {

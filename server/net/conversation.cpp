@@ -12,6 +12,13 @@ using protocol::Code;
 using protocol::Failure;
 using protocol::MessageId;
 
+namespace {
+
+// A server that is ended on purpose is usually started again at once.
+constexpr std::uint32_t kRestartMs = 1000;
+
+}  // namespace
+
 Conversation::Conversation(room::Atlas& atlas, std::unique_ptr<room::Strand> own,
                            std::function<void()> wake)
     : atlas_(atlas), own_(std::move(own)), wake_(std::move(wake)) {}
@@ -43,9 +50,10 @@ void Conversation::handle(protocol::Hello& hello) {
   if (greeted()) return reject(hello.id, {Code::bad_state, "hello was said already", "type"});
   constexpr int kVersion = protocol::Hello::kMaxProtocol;
   if (hello.protocol_min > kVersion || hello.protocol_max < protocol::Hello::kMinProtocol) {
-    return say_bye({Code::bad_version,
-                    "protocol: this server speaks " + std::to_string(kVersion) + " only",
-                    "protocol"});
+    Failure why{Code::bad_version,
+                "protocol: this server speaks " + std::to_string(kVersion) + " only", "protocol"};
+    if (hello.id) reject(hello.id, why);
+    return say_bye(std::move(why));
   }
   user_.session = protocol::hex(room::random_u64());
   user_.name = std::move(hello.name);
@@ -180,7 +188,9 @@ void Conversation::refuse_unsupported(std::optional<MessageId> id, const char* w
 void Conversation::say_bye(Failure why) {
   if (ending_) return;
   ending_ = true;
-  outbox_.end({.failure = std::move(why), .retry_after_ms = {}});
+  protocol::Bye bye{.failure = std::move(why), .retry_after_ms = {}};
+  if (bye.failure.code == Code::shutting_down) bye.retry_after_ms = kRestartMs;
+  outbox_.end(std::move(bye));
   wake_();
 }
 

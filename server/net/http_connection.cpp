@@ -12,6 +12,7 @@
 #include <boost/beast/http/rfc7230.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -36,9 +37,13 @@ constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 
 std::optional<std::string> header(const Request& request, http::field field) {
-  const auto found = request.find(field);
-  if (found == request.end()) return std::nullopt;
-  return std::string(found->value());
+  // Of a header given twice one value could be checked and another one meant: together they match
+  // nothing.
+  const auto [first, last] = request.equal_range(field);
+  if (first == last) return std::nullopt;
+  std::string values(first->value());
+  for (auto at = std::next(first); at != last; ++at) values += ", " + std::string(at->value());
+  return values;
 }
 
 HttpRequest plain(const Request& request) {

@@ -47,6 +47,18 @@ TEST(Access, SaysWhichHeader) {
   EXPECT_EQ(kAccess.check("localhost:8080", "x").error().field, "Origin");
 }
 
+TEST(Access, ANameGivenWithoutAPortHasAnyPort) {
+  const Access access({"127.0.0.1", 8080}, {"maps.example", "[fd00::1]", "other.example:9000"});
+  EXPECT_TRUE(access.check("maps.example:8080", "http://maps.example:8080"));
+  EXPECT_TRUE(access.check("maps.example", {}));
+  EXPECT_TRUE(access.check("[fd00::1]:80", {}));
+  EXPECT_TRUE(access.check("[fd00::1]", {}));
+  EXPECT_TRUE(access.check("other.example:9000", {}));
+  EXPECT_FALSE(access.check("other.example:9001", {}));
+  EXPECT_FALSE(access.check("maps.example:80:80", {}));
+  EXPECT_FALSE(access.check("localhost:9000", {}));
+}
+
 TEST(Access, OnPortEightyTheNameAloneWill) {
   const Access access({"10.0.0.7", 80}, {});
   EXPECT_TRUE(access.check("10.0.0.7", {}));

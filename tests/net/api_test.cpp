@@ -131,7 +131,7 @@ TEST_F(ApiTest, WhatWritesHasToBeJson) {
   auto post = request("POST", "/api/maps", R"({"name":"a"})");
   post.content_type.reset();
   is_problem(ask(post), 415);
-  post.content_type = "application/json; charset=utf-8";
+  post.content_type = "Application/JSON; charset=utf-8";
   EXPECT_EQ(ask(post).status, 201);
   auto del = request("DELETE", "/api/maps/a", "x=1");
   del.content_type = "text/plain";

@@ -95,6 +95,23 @@ TEST_F(ConversationTest, WithoutACommonVersionItEnds) {
   EXPECT_TRUE(talk.say(kHello).empty());
 }
 
+TEST_F(ConversationTest, AHelloWithAnIdIsRefusedUnderIt) {
+  const auto messages = talk.say(R"({"type":"hello","protocol":[2,3],"name":"ann","id":7})");
+  ASSERT_EQ(messages.size(), 2u);
+  const auto& rejected = std::get<protocol::Rejected>(messages[0]);
+  EXPECT_EQ(rejected.id, 7);
+  EXPECT_EQ(rejected.failure.code, Code::bad_version);
+  EXPECT_TRUE(std::holds_alternative<protocol::Bye>(messages[1]));
+}
+
+TEST_F(ConversationTest, AServerThatEndsSaysWhenToComeBack) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.conversation->say_bye({Code::shutting_down, "the server ends", {}});
+  const auto messages = talk.hear();
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(std::get<protocol::Bye>(messages[0]).retry_after_ms, 1000u);
+}
+
 TEST_F(ConversationTest, JoinTellsOfTheMap) {
   talk.one<protocol::Welcome>(kHello);
   const auto joined = talk.one<protocol::Joined>(kJoin);

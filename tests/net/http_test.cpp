@@ -80,6 +80,11 @@ TEST_F(HttpTest, HeadHasNoBody) {
 
 TEST_F(HttpTest, WantsItsOwnName) {
   EXPECT_EQ(http(port, "GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n").status, 403);
+  EXPECT_EQ(http(port, "GET / HTTP/1.1\r\n" + host + "Host: evil.example\r\n\r\n").status, 403);
+  EXPECT_EQ(http(port, "GET / HTTP/1.1\r\n" + host + "Origin: http://" + server->address().text() +
+                           "\r\nOrigin: http://evil.example\r\n\r\n")
+                .status,
+            403);
   EXPECT_EQ(http(port, "GET / HTTP/1.1\r\n\r\n").status, 403);
   EXPECT_EQ(http(port, "GET / HTTP/1.1\r\n" + host + "Origin: http://evil.example\r\n\r\n").status,
             403);
