@@ -1,23 +1,40 @@
 // earthwork-bot: the command line. Each subcommand is a file of its own.
+#include <fcntl.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <iostream>
 #include <string>
 
+#include "client/bot/flag_value.hpp"
 #include "client/bot/run_command.hpp"
 #include "client/bot/trace_command.hpp"
 #include "client/bot/watch_command.hpp"
+#include "protocol/json_fields.hpp"
+#include "protocol/limits.hpp"
 
 namespace {
 
 using namespace earthwork::bot;
+namespace protocol = earthwork::protocol;
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 the work failed, was cut short or was refused in part, 2 wrong usage "
     "or nothing to talk to.";
 constexpr double kMaxSeconds = 1e9, kMaxRate = 1e9;
 constexpr std::size_t kMaxWindow = 4096;
+
+CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
+  return {[=](const std::string& text) { return check_whole(text, min, max); },
+          std::to_string(min) + " .. " + std::to_string(max)};
+}
+
+CLI::Validator number(double min, double max) {
+  return {[=](const std::string& text) { return check_number(text, min, max); },
+          protocol::plain(min) + " .. " + protocol::plain(max)};
+}
 
 template <class Options>
 void add_target(CLI::App& command, Options& options) {
@@ -34,10 +51,9 @@ void add_run(CLI::App& app, RunOptions& options) {
                "Make the map with the script's settings; one that exists is used when its settings "
                "are equal, and refused otherwise");
   run.add_option("--window", options.window, "Edits without an answer, at most")
-      ->check(CLI::Range(std::size_t{1}, kMaxWindow))
+      ->check(whole(1, kMaxWindow))
       ->capture_default_str();
-  run.add_option("--rate", options.rate, "Edits a second, at most")
-      ->check(CLI::Range(1e-3, kMaxRate));
+  run.add_option("--rate", options.rate, "Edits a second, at most")->check(number(1e-3, kMaxRate));
   run.footer(std::string("Prints one line, also when interrupted or when the server goes away: "
                          "{\"edits\" sent, \"acked\", \"rejected\", \"seconds\", \"ack_p50_ms\", "
                          "\"ack_p99_ms\", \"seq\"}. {\"wait_ms\":N} in a script sends nothing for "
@@ -55,10 +71,11 @@ void add_trace(CLI::App& app, TraceOptions& options, bool& invert) {
   trace
       .add_option("--threshold", options.threshold,
                   "Pixels of a grey below it are filled; transparent ones are laid over white")
-      ->check(CLI::Range(0, 256))
+      ->check(whole(0, 256))
       ->capture_default_str();
   trace.add_flag("--invert", invert, "Fill the other pixels instead");
   trace.add_option("--resolution", options.resolution, "Voxels along a chunk of a map made here")
+      ->check(whole(8, 64))
       ->check(CLI::IsMember({8, 16, 32, 64}))
       ->capture_default_str();
   trace.footer(
@@ -72,16 +89,25 @@ void add_watch(CLI::App& app, WatchCommandOptions& options) {
   CLI::App& watch =
       *app.add_subcommand("watch", "Builds the mesh of all of a map from frames alone");
   add_target(watch, options);
-  watch.add_option("--until-seq", options.until_seq, "End once this event is shown");
+  watch.add_option("--until-seq", options.until_seq, "End once this event is shown")
+      ->check(whole(0, protocol::kMaxInteger));
   watch.add_option("--seconds", options.seconds, "End after so long")
-      ->check(CLI::Range(0.0, kMaxSeconds));
+      ->check(number(0, kMaxSeconds));
   watch.add_option("--glb", options.glb, "Write the mesh to this file, as glTF");
   watch.footer(
       std::string(
           "Without --until-seq and --seconds it ends once it has all of the map; with both, "
-          "at whichever comes first. Prints one line: {\"seq\", \"frames\", \"bytes\", "
+          "at whichever comes first. A view, and so watch, holds at most 16,384 chunks: a larger "
+          "map is refused. Prints one line: {\"seq\", \"frames\", \"bytes\", "
           "\"chunks\", \"mesh_hash\"}.\n") +
       kExitCodes);
+}
+
+/// A stream that was closed for this program must not become a socket or a file of its own: what
+/// is printed would land there. Opened for reading, it refuses what is printed.
+void keep_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream)
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
 }
 
 int run_program(int argc, char** argv) {
@@ -118,10 +144,13 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams();
   try {
-    return run_program(argc, argv);
+    const int code = run_program(argc, argv);
+    if (std::cout.flush()) return code;
+    std::cerr << "earthwork-bot: stdout cannot be written\n";
   } catch (const std::exception& error) {
     std::cerr << "earthwork-bot: " << error.what() << '\n';
-    return kFailed;
   }
+  return kFailed;
 }

@@ -53,6 +53,9 @@ ExitCode finish(const WatchReport& report, const WatchCommandOptions& options, s
 ExitCode watch_command(const WatchCommandOptions& options, std::ostream& out, std::ostream& log) {
   const auto server = link::parse_server(options.server);
   if (!server) return log << server.error().detail << '\n', kUsage;
+  if (!protocol::valid_map_name(options.map))
+    return log << "map: '" << options.map << "' is no map's name: 1-64 of a-z, 0-9, '-', '_'\n",
+           kUsage;
   WatchOptions watching{
       .server = *server, .map = options.map, .until_seq = options.until_seq, .time_limit = {}};
   if (options.seconds)

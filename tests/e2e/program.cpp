@@ -40,7 +40,7 @@ std::filesystem::path new_folder() {
 
 pid_t spawn(const std::string& name, const std::vector<std::string>& arguments,
             const std::filesystem::path& folder) {
-  const std::string path = std::string(EARTHWORK_BIN_DIR) + "/" + name;
+  const std::string path = (std::filesystem::path(EARTHWORK_BIN_DIR) / name).string();
   std::vector<char*> argv{const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -99,6 +99,14 @@ Outcome Program::wait() {
 
 Outcome bot(const std::vector<std::string>& arguments) {
   return Program("earthwork-bot", arguments).wait();
+}
+
+Outcome bot_without(Stdout missing, const std::vector<std::string>& arguments) {
+  std::vector<std::string> all{
+      "-c", std::string("exec \"$0\" \"$@\" ") + (missing == Stdout::full ? ">/dev/full" : ">&-"),
+      (std::filesystem::path(EARTHWORK_BIN_DIR) / "earthwork-bot").string()};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return Program("/bin/sh", all).wait();
 }
 
 ServerProgram::ServerProgram()

@@ -20,7 +20,7 @@ struct Outcome {
 /// A program that runs, in a folder for its output; killed when it goes out of scope.
 class Program {
  public:
-  /// `name` is a file in the build's bin folder.
+  /// `name` is a file in the build's bin folder, or a path.
   Program(const std::string& name, const std::vector<std::string>& arguments);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -45,6 +45,10 @@ class Program {
 
 /// earthwork-bot with these arguments, from start to end.
 Outcome bot(const std::vector<std::string>& arguments);
+
+/// How it ends with a stdout that takes nothing.
+enum class Stdout { full, closed };
+Outcome bot_without(Stdout missing, const std::vector<std::string>& arguments);
 
 /// `earthwork-server serve --memory` on a free port, until it goes out of scope: then it is asked
 /// to end, and the test fails unless it does so with 0 (a sanitizer that found something makes it

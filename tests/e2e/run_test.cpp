@@ -169,6 +169,45 @@ TEST_F(Run, PrintsItsFiguresWhenTheServerGoesAway) {
   EXPECT_NE(outcome.err, "");
 }
 
+TEST_F(Run, EndsWithOneWhenItsFiguresCannotBePrinted) {
+  auto all = arguments(kEdit);
+  all.push_back("--create");
+  for (const Stdout missing : {Stdout::full, Stdout::closed}) {
+    const std::vector<std::vector<std::string>> commands{
+        all, {"watch", "--server", server_.url(), "--map", "demo"}, {"--help"}};
+    for (const auto& arguments : commands) {
+      const Outcome outcome = bot_without(missing, arguments);
+      EXPECT_EQ(outcome.exit_code, 1) << arguments[0];
+      EXPECT_NE(outcome.err.find("earthwork-bot: stdout cannot be written\n"), std::string::npos)
+          << outcome.err;
+    }
+  }
+}
+
+TEST(Bot, NamesTheFlagWhoseValueIsWrong) {
+  const std::vector<std::vector<std::string>> wrong{
+      {"watch", "--until-seq", "-1"},
+      {"watch", "--until-seq", "99999999999999999999"},
+      {"watch", "--until-seq", "0x10"},
+      {"watch", "--seconds", "nan"},
+      {"watch", "--seconds", "-1"},
+      {"run", "--rate", "nan", "x.jsonl"},
+      {"run", "--rate", "inf", "x.jsonl"},
+      {"run", "--window", "0x10", "x.jsonl"},
+      {"trace", "--threshold", "257", "x.png"},
+      {"trace", "--resolution", "0x10", "x.png"},
+      {"trace", "--resolution", "9", "x.png"}};
+  for (auto arguments : wrong) {
+    const std::string flag = arguments[1];
+    arguments.insert(arguments.end(), {"--map", "demo", "--server", "http://127.0.0.1:1"});
+    const Outcome outcome = bot(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("earthwork-bot: " + flag + ": ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
 TEST(Bot, EndsWithTwoAndOneLineWhenItIsUsedWrongly) {
   const std::vector<std::vector<std::string>> wrong{
       {},
@@ -181,6 +220,7 @@ TEST(Bot, EndsWithTwoAndOneLineWhenItIsUsedWrongly) {
       {"run", kConformance + "07_circles.jsonl", "--map", "demo", "--server", "http://127.0.0.1:1"},
       {"run", kConformance + "07_circles.jsonl", "--map", "../x", "--server", "http://127.0.0.1:1"},
       {"trace", "no-such-file.png", "--map", "demo", "--server", "http://127.0.0.1:1"},
+      {"watch", "--map", "", "--server", "http://127.0.0.1:1"},
       {"watch", "--map", "demo", "--server", "http://127.0.0.1:1"}};
   for (const auto& arguments : wrong) {
     const Outcome outcome = bot(arguments);

@@ -145,7 +145,15 @@ TEST(WatchCutShort, PrintsItsFiguresWhenInterruptedAndWhenTheServerGoesAway) {
 TEST_F(Watch, NamesAMapThatIsNotThereAndAFileThatCannotBeWritten) {
   const Outcome nowhere = watch();
   EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_EQ(nowhere.out, "");
   EXPECT_EQ(nowhere.err, "map: there is no demo\n");
+  for (const char* name : {"", "../demo", "Demo"}) {
+    const Outcome misnamed = bot({"watch", "--server", server_.url(), "--map", name});
+    EXPECT_EQ(misnamed.exit_code, 2);
+    EXPECT_EQ(misnamed.out, "");
+    EXPECT_EQ(misnamed.err,
+              "map: '" + std::string(name) + "' is no map's name: 1-64 of a-z, 0-9, '-', '_'\n");
+  }
   paint("07_circles");
   const Outcome unwritten = watch({"--glb", folder_ / "no/such/folder.glb"});
   EXPECT_EQ(unwritten.exit_code, 1);
