@@ -1,12 +1,11 @@
-/// What stands behind a flag on the command line.
+/// What stands behind a flag on the command line. Each function gives back what is wrong with
+/// `text`, for people, and nothing when it is well.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 namespace earthwork::bot {
-
-/// Each gives back what is wrong with `text`, for people, and nothing when it is well.
 
 /// Decimal digits, `min` .. `max`; no sign, no other base.
 [[nodiscard]] std::string check_whole(const std::string& text, std::uint64_t min,

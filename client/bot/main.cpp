@@ -1,8 +1,7 @@
 // earthwork-bot: the command line. Each subcommand is a file of its own.
-#include <fcntl.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -104,10 +103,14 @@ void add_watch(CLI::App& app, WatchCommandOptions& options) {
 }
 
 /// A stream that was closed for this program must not become a socket or a file of its own: what
-/// is printed would land there. Opened for reading, it refuses what is printed.
+/// is printed would land there. A file takes the first free place; open for reading, it refuses
+/// what is printed.
 void keep_standard_streams() {
-  for (int stream = 0; stream <= 2; ++stream)
-    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+  constexpr int kLast = 2;
+  std::FILE* nothing = nullptr;
+  do nothing = std::fopen("/dev/null", "r");
+  while (nothing && fileno(nothing) <= kLast);
+  if (nothing) std::fclose(nothing);
 }
 
 int run_program(int argc, char** argv) {
