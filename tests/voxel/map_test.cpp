@@ -47,9 +47,7 @@ std::set<ReferenceMap::Voxel> voxels(const Map& map) {
   return found;
 }
 
-RC_GTEST_PROP(Map, FollowsTheRulesOneVoxelAtATime, ()) {
-  const Grid grid = *any_grid();
-  const auto edits = *any_edits(12);
+void check_rules(const Grid& grid, const std::vector<Stencil>& edits) {
   const Map map = played(grid, edits);
   ReferenceMap reference(grid);
   for (const Stencil& edit : edits) reference.apply(edit);
@@ -58,16 +56,12 @@ RC_GTEST_PROP(Map, FollowsTheRulesOneVoxelAtATime, ()) {
   RC_ASSERT(edges(map, Axis::y) == reference.edges(false));
 }
 
+RC_GTEST_PROP(Map, FollowsTheRulesOneVoxelAtATime, ()) { check_rules(*any_grid(), *any_edits(12)); }
+
 RC_GTEST_PROP(Map, FollowsTheRulesAtAnotherVoxelSize, ()) {
-  const Grid grid{
-      .resolution = 16, .voxel_size = *rc::gen::element(0.1, 0.3, 2.5, 1000.0), .bounds = {}};
-  const auto edits = *any_edits(12, grid.voxel_size);
-  const Map map = played(grid, edits);
-  ReferenceMap reference(grid);
-  for (const Stencil& edit : edits) reference.apply(edit);
-  RC_ASSERT(voxels(map) == reference.voxels());
-  RC_ASSERT(edges(map, Axis::x) == reference.edges(true));
-  RC_ASSERT(edges(map, Axis::y) == reference.edges(false));
+  const double voxel_size = *rc::gen::element(0.1, 0.3, 2.5, 1000.0);
+  check_rules({.resolution = 16, .voxel_size = voxel_size, .bounds = {}},
+              *any_edits(12, voxel_size));
 }
 
 RC_GTEST_PROP(Map, ARepeatedEditChangesNothing, ()) {
