@@ -21,8 +21,8 @@ void check_promises(const MapSettings& settings) {
   }
   const ChunkRange extent = map_extent(settings);
   expect(!extent.empty(), "a map has a chunk");
-  const std::int32_t world = 1'000'000 / settings.chunk_resolution;
-  expect(extent.x0 >= -world && extent.y1 <= world + 1, "a map lies inside the world");
+  const std::int32_t world = kWorldVoxels / settings.chunk_resolution;
+  expect(extent.x0 >= -world && extent.y1 <= world, "a map lies inside the world");
 }
 
 void check(std::string_view text) {
