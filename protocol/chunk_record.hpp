@@ -47,7 +47,7 @@ struct ChunkMesh {
 /// A chunk's whole mesh, or word that it has none any more (`removed`; the mesh is then empty).
 struct ChunkRecord {
   ChunkKey key;
-  std::uint64_t revision = 0;  ///< The seq at which this mesh came to be.
+  std::uint64_t revision = 0;  ///< The seq as of which this mesh was made.
   bool removed = false;
   ChunkMesh mesh;
   friend bool operator==(const ChunkRecord&, const ChunkRecord&) = default;

@@ -160,7 +160,8 @@ CellPoint place(Side side, voxel::Crossing crossing) {
   return {0, crossing.offset};
 }
 
-// The cosine is rounded to a billionth: builds whose libraries disagree in its last bit agree here.
+// The cosine is rounded to a billionth, so that builds whose libraries disagree in its last bit
+// agree here, but for about one angle in ten million.
 std::int64_t sharpness_limit(double max_feature_angle_degrees) {
   constexpr double kPi = 3.14159265358979323846;
   constexpr double kUnit = double{voxel::kNormalUnit} * voxel::kNormalUnit;

@@ -10,7 +10,7 @@
 
 namespace earthwork::mesh {
 
-/// Points are numbered: x crossings, y crossings, then features and the chunk's corners.
+/// Points are numbered: x crossings, y crossings, then the chunk's corners and the features.
 ///
 /// Reusable; the vectors are read by the steps that follow, which also drop points.
 struct ContourGraph {
