@@ -5,6 +5,7 @@
 #include "protocol/limits.hpp"
 #include "protocol/message_fields.hpp"
 #include "protocol/messages.hpp"
+#include "protocol/presence_fields.hpp"
 
 namespace earthwork::protocol {
 namespace {
@@ -83,7 +84,7 @@ Result<ClientMessage> read_edit_message(JsonFields& in, const json& object) {
 }
 
 Result<ClientMessage> read_cursor(JsonFields& in) {
-  Cursor cursor{.x = in.number("x"), .y = in.number("y"), .id = read_optional_id(in)};
+  Cursor cursor{.at = read_place(in), .brush = read_brush(in), .id = read_optional_id(in)};
   return in.result<ClientMessage>(cursor);
 }
 
@@ -148,8 +149,8 @@ struct Writer {
   const char* operator()(const Undo& undo) const { return with_id("undo", undo.id); }
   const char* operator()(const Redo& redo) const { return with_id("redo", redo.id); }
   const char* operator()(const Cursor& cursor) const {
-    out["x"] = cursor.x;
-    out["y"] = cursor.y;
+    write_place(cursor.at, out);
+    write_brush(cursor.brush, out);
     return with_id("cursor", cursor.id);
   }
   const char* operator()(const Events& events) const {

@@ -11,13 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-StencilShape read_stencil(JsonFields& in) {
-  const std::string shape = in.text("stencil");
-  if (shape == "square") return StencilShape::square;
-  if (shape != "circle") in.refuse(Code::bad_field, "stencil", "is not \"square\" or \"circle\"");
-  return StencilShape::circle;
-}
-
 std::vector<MapPoint> read_path(JsonFields& in) {
   std::vector<MapPoint> path;
   const json* array = in.array("path", 1, kMaxPathPoints);
@@ -35,6 +28,17 @@ std::vector<MapPoint> read_path(JsonFields& in) {
 }
 
 }  // namespace
+
+std::string_view name(StencilShape shape) {
+  return shape == StencilShape::square ? "square" : "circle";
+}
+
+StencilShape read_stencil(JsonFields& in) {
+  const std::string shape = in.text("stencil");
+  if (shape == "square") return StencilShape::square;
+  if (shape != "circle") in.refuse(Code::bad_field, "stencil", "is not \"square\" or \"circle\"");
+  return StencilShape::circle;
+}
 
 Result<Edit> read_edit(const json& json) {
   JsonFields in(json);
@@ -58,7 +62,7 @@ Result<Edit> read_edit(const json& json) {
 
 void write_edit(const Edit& edit, nlohmann::ordered_json& out) {
   if (edit.layer != 0) out["layer"] = edit.layer;
-  out["stencil"] = edit.stencil == StencilShape::square ? "square" : "circle";
+  out["stencil"] = name(edit.stencil);
   out["fill"] = edit.fill;
   if (edit.is_path) {
     auto& path = out["path"] = nlohmann::ordered_json::array();

@@ -4,14 +4,21 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "protocol/json_fields.hpp"
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
 
 namespace earthwork::protocol {
 
 enum class StencilShape : std::uint8_t { square, circle };
+
+/// "square" or "circle".
+[[nodiscard]] std::string_view name(StencilShape shape);
+/// The field "stencil".
+[[nodiscard]] StencilShape read_stencil(JsonFields& in);
 
 /// Map units.
 struct MapPoint {

@@ -36,6 +36,8 @@ inline constexpr std::size_t kMaxVertices = 65535;           ///< Of a chunk's m
 /// Mesh coordinates end before this: 65 voxels in 1/32768.
 inline constexpr std::int32_t kMeshCoordinateEnd = 65 * 32768;
 
+/// Of an author's last ids in a map, to know one that is sent again.
+inline constexpr std::size_t kMaxRememberedIds = 4096;
 inline constexpr std::int64_t kMaxWaitMs = 3'600'000;  ///< In a script.
 
 }  // namespace earthwork::protocol

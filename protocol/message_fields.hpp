@@ -10,7 +10,8 @@
 namespace earthwork::protocol {
 
 inline constexpr std::int64_t kMaxVersion = 65535;
-inline constexpr std::size_t kKeyDigits = 32, kSessionDigits = 16, kEpochDigits = 16;
+inline constexpr std::size_t kKeyDigits = 32, kSessionDigits = 16, kEpochDigits = 16,
+                             kAuthorDigits = 16, kHashDigits = 16;
 
 inline MessageId read_id(JsonFields& in) { return in.integer("id", {1, kMaxInteger}); }
 

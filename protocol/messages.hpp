@@ -69,11 +69,22 @@ struct Redo {
   MessageId id = 0;
   friend bool operator==(const Redo&, const Redo&) = default;
 };
+/// What somebody would paint with.
+struct Brush {
+  StencilShape stencil = StencilShape::circle;
+  double radius = 0;  ///< Map units.
+  bool fill = true;
+  std::uint32_t layer = 0;
+  friend bool operator==(const Brush&, const Brush&) = default;
+};
+/// Where somebody points, for the others to see.
 struct Cursor {
-  double x = 0, y = 0;
+  std::optional<MapPoint> at;  ///< Map units; none: nowhere ("hidden": true).
+  std::optional<Brush> brush;
   std::optional<MessageId> id;
   friend bool operator==(const Cursor&, const Cursor&) = default;
 };
+/// All that the map accepted from that seq on, and what it accepts from now on.
 struct Events {
   std::uint64_t from_seq = 1;
   std::optional<MessageId> id;
@@ -94,8 +105,10 @@ struct Welcome {
                                 ///< protocol/limits.hpp and ignored when read.
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
+/// Somebody who has joined, under the identity that the server gave.
 struct User {
   std::string session, name, color;
+  std::string author;  ///< 16 hex digits: who its edits are by; the same whenever the key is.
   friend bool operator==(const User&, const User&) = default;
 };
 struct Joined {
@@ -123,17 +136,41 @@ struct CaughtUp {
   std::uint64_t seq = 0;
   friend bool operator==(const CaughtUp&, const CaughtUp&) = default;
 };
-/// The reply to ping, leave and view messages that carry an id.
+/// The reply to ping, leave, view, cursor and events messages that carry an id.
 struct Done {
   MessageId id = 0;
   friend bool operator==(const Done&, const Done&) = default;
+};
+struct UserCursor {
+  std::string session;
+  std::optional<MapPoint> at;  ///< None: it has no cursor any more.
+  std::optional<Brush> brush;
+  friend bool operator==(const UserCursor&, const UserCursor&) = default;
+};
+/// What is new among the people of a map. Written without the lists that are empty.
+struct Presence {
+  bool all = false;                 ///< Whoever is not among `users` is gone.
+  std::vector<User> users;          ///< Who came.
+  std::vector<std::string> left;    ///< Sessions that are gone, their cursors with them.
+  std::vector<UserCursor> cursors;  ///< Those that moved.
+  friend bool operator==(const Presence&, const Presence&) = default;
+};
+/// An accepted edit.
+struct Event {
+  std::uint64_t seq = 0;
+  std::int64_t time_ms = 0;  ///< Since 1970, UTC.
+  std::string author;        ///< 16 hex digits, as of User.
+  Edit edit;                 ///< Written as kind "edit" and the edit's fields.
+  std::string hash;          ///< Of the map after it; 16 hex digits.
+  friend bool operator==(const Event&, const Event&) = default;
 };
 struct Bye {
   Failure failure;  ///< Written as code and message.
   std::optional<std::uint32_t> retry_after_ms;
   friend bool operator==(const Bye&, const Bye&) = default;
 };
-using ServerMessage = std::variant<Welcome, Joined, Applied, Rejected, CaughtUp, Done, Bye>;
+using ServerMessage =
+    std::variant<Welcome, Joined, Applied, Rejected, CaughtUp, Done, Presence, Event, Bye>;
 
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);
 [[nodiscard]] std::string write(const ClientMessage& message);

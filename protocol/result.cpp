@@ -6,10 +6,10 @@ namespace earthwork::protocol {
 namespace {
 
 // In the order of the enum.
-constexpr std::array<std::string_view, 15> kNames{
-    "bad_json",  "bad_message",   "bad_field", "out_of_range",  "too_large",
-    "bad_frame", "bad_version",   "bad_state", "unknown_map",   "map_exists",
-    "bad_name",  "not_supported", "timeout",   "shutting_down", "internal",
+constexpr std::array<std::string_view, 17> kNames{
+    "bad_json",        "bad_message",   "bad_field",   "out_of_range",  "too_large", "bad_frame",
+    "bad_version",     "bad_state",     "unknown_map", "map_exists",    "bad_name",  "id_too_old",
+    "id_out_of_order", "not_supported", "timeout",     "shutting_down", "internal",
 };
 static_assert(kNames.size() == static_cast<std::size_t>(Code::internal) + 1);
 

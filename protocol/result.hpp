@@ -22,9 +22,11 @@ enum class Code : std::uint8_t {
   unknown_map,
   map_exists,
   bad_name,
-  not_supported,  ///< Understood, and not offered by this server.
-  timeout,        ///< Nothing was heard for too long.
-  shutting_down,  ///< The server ends.
+  id_too_old,       ///< The id is older than all that are remembered.
+  id_out_of_order,  ///< The id is below one that was applied already, and was not applied itself.
+  not_supported,    ///< Understood, and not offered by this server.
+  timeout,          ///< Nothing was heard for too long.
+  shutting_down,    ///< The server ends.
   internal,
 };
 

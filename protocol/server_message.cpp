@@ -5,6 +5,7 @@
 #include "protocol/limits.hpp"
 #include "protocol/message_fields.hpp"
 #include "protocol/messages.hpp"
+#include "protocol/presence_fields.hpp"
 
 namespace earthwork::protocol {
 namespace {
@@ -35,6 +36,7 @@ ordered_json write_limits() {
       {"max_vertices", kMaxVertices},
       {"mesh_coordinate_end", kMeshCoordinateEnd},
       {"max_wait_ms", kMaxWaitMs},
+      {"max_remembered_ids", kMaxRememberedIds},
   };
 }
 
@@ -53,28 +55,6 @@ Result<ServerMessage> read_welcome(JsonFields& in) {
   welcome.protocol = static_cast<int>(in.integer("protocol", {1, kMaxVersion}));
   welcome.id = read_optional_id(in);
   return in.result<ServerMessage>(std::move(welcome));
-}
-
-Result<User> read_user(JsonFields in) {
-  User user{.session = in.hex_digits("session", kSessionDigits),
-            .name = in.name("name"),
-            .color = in.color("color")};
-  return in.result(std::move(user));
-}
-
-std::vector<User> read_users(JsonFields& in) {
-  std::vector<User> users;
-  const json* array = in.array("users", 0, kMaxServerControlBytes);
-  if (!array) return users;
-  for (const json& element : *array) {
-    auto user = read_user(JsonFields(element, "users[" + std::to_string(users.size()) + "]"));
-    if (!user) {
-      in.refuse(std::move(user.error()));
-      break;
-    }
-    users.push_back(std::move(*user));
-  }
-  return users;
 }
 
 Result<ServerMessage> read_joined(JsonFields& in) {
@@ -99,6 +79,20 @@ Result<ServerMessage> read_rejected(JsonFields& in) {
   return in.result<ServerMessage>(std::move(rejected));
 }
 
+Result<ServerMessage> read_event(JsonFields& in, const json& object) {
+  Event event{.seq = read_seq(in, "seq", 1),
+              .time_ms = in.integer("time", {-kMaxInteger, kMaxInteger}),
+              .author = in.hex_digits("author", kAuthorDigits),
+              .edit = {},
+              .hash = in.hex_digits("hash", kHashDigits)};
+  if (in.text("kind") != "edit") in.refuse(Code::not_supported, "kind", "is not known here");
+  if (in.failed()) return in.result<ServerMessage>(std::move(event));
+  auto edit = read_edit(object);
+  if (!edit) return tl::unexpected<Failure>(std::move(edit.error()));
+  event.edit = std::move(*edit);
+  return ServerMessage(std::move(event));
+}
+
 Result<ServerMessage> read_bye(JsonFields& in) {
   Bye bye{.failure = read_failure(in), .retry_after_ms = {}};
   if (in.has("retry_after_ms")) bye.retry_after_ms = read_u32(in, "retry_after_ms");
@@ -117,6 +111,8 @@ Result<ServerMessage> read_message(const json& object) {
   if (type == "done") return in.result<ServerMessage>(Done{.id = read_id(in)});
   if (type == "welcome") return read_welcome(in);
   if (type == "joined") return read_joined(in);
+  if (type == "presence") return read_presence(in);
+  if (type == "event") return read_event(in, object);
   if (type == "bye") return read_bye(in);
   return fail(Code::bad_message, "type: is no message of a server", "type");
 }
@@ -137,9 +133,7 @@ struct Writer {
     out["settings"] = write_settings(joined.settings);
     out["epoch"] = joined.epoch;
     out["seq"] = joined.seq;
-    auto& users = out["users"] = ordered_json::array();
-    for (const User& user : joined.users)
-      users.push_back({{"session", user.session}, {"name", user.name}, {"color", user.color}});
+    out["users"] = write_users(joined.users);
     return with_id("joined", joined.id);
   }
   const char* operator()(const Applied& applied) const {
@@ -158,6 +152,19 @@ struct Writer {
     return "caught_up";
   }
   const char* operator()(const Done& done) const { return with_id("done", done.id); }
+  const char* operator()(const Presence& presence) const {
+    write_presence(presence, out);
+    return "presence";
+  }
+  const char* operator()(const Event& event) const {
+    out["seq"] = event.seq;
+    out["time"] = event.time_ms;
+    out["author"] = event.author;
+    out["kind"] = "edit";
+    write_edit(event.edit, out);
+    out["hash"] = event.hash;
+    return "event";
+  }
   const char* operator()(const Bye& bye) const {
     write_failure(bye.failure);
     if (bye.retry_after_ms) out["retry_after_ms"] = *bye.retry_after_ms;

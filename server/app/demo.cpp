@@ -77,13 +77,15 @@ void stones(std::vector<Edit>& edits) {
 
 /// Paints and does not look.
 class Painter final : public room::Viewer {
-  void applied(std::vector<protocol::Applied>) override {}
+  void answered(std::vector<room::Reply>) override {}
   void deliver(room::Parcel) override {}
+  void tell(room::Talk) override {}
   void end(protocol::Bye) override {}
 };
 
 void paint(room::Room& room) {
-  auto entrance = room.join(std::make_shared<Painter>(), {"0000000000000000", "demo", "#8a9a5b"});
+  auto entrance = room.join(std::make_shared<Painter>(),
+                            {"0000000000000000", "demo", "#8a9a5b", "0000000000000000"});
   if (!entrance) return;
   protocol::MessageId id = 0;
   for (Edit& edit : demo_edits()) {

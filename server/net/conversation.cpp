@@ -60,6 +60,7 @@ void Conversation::handle(protocol::Hello& hello) {
   user_.color = hello.color ? *hello.color : color_for(user_.session);
   const std::string key = hello.key ? *hello.key : room::random_key();
   author_ = author_of(key);
+  user_.author = protocol::hex(author_);
   say(protocol::Welcome{
       .session = user_.session, .key = key, .protocol = kVersion, .id = hello.id});
 }
@@ -203,10 +204,11 @@ void Conversation::abandon() {
   room_.reset();
 }
 
-void Conversation::applied(std::vector<protocol::Applied> replies) {
+void Conversation::answered(std::vector<room::Reply> replies) {
   own_->post([self = shared_from_this(), told = std::move(replies)] {
     self->unanswered_ -= static_cast<int>(told.size());
-    for (const protocol::Applied& reply : told) self->outbox_.say(reply);
+    for (const room::Reply& reply : told)
+      std::visit([&](const auto& message) { self->outbox_.say(message); }, reply);
     self->wake_();
   });
 }
@@ -217,6 +219,8 @@ void Conversation::deliver(room::Parcel parcel) {
     self->wake_();
   });
 }
+
+void Conversation::tell(room::Talk) {}
 
 void Conversation::end(protocol::Bye bye) {
   own_->post([self = shared_from_this(), why = std::move(bye.failure)] { self->say_bye(why); });

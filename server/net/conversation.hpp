@@ -50,8 +50,9 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   /// The socket is gone: leaves the room. `wake` is not called after it.
   void abandon();
 
-  void applied(std::vector<protocol::Applied> replies) override;
+  void answered(std::vector<room::Reply> replies) override;
   void deliver(room::Parcel parcel) override;
+  void tell(room::Talk talk) override;
   void end(protocol::Bye bye) override;
 
  private:

@@ -95,6 +95,16 @@ void Room::ready(ViewerId viewer) {
   publish_to(found->second, Beat::wait);
 }
 
+void Room::heard(ViewerId) {}
+
+protocol::Result<void> Room::point(ViewerId, const protocol::Cursor&) {
+  return protocol::fail(Code::not_supported, "cursor is not offered by this server", "type");
+}
+
+protocol::Result<void> Room::follow(ViewerId, std::uint64_t) {
+  return protocol::fail(Code::not_supported, "events is not offered by this server", "type");
+}
+
 protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
   const auto found = seats_.find(viewer);
   if (found == seats_.end()) return protocol::fail(Code::bad_state, "edit: join a map first");
@@ -163,13 +173,13 @@ void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
                      .edit = std::move(next.command.edit)});
   if (const auto seat = seats_.find(next.viewer); seat != seats_.end()) {
     --seat->second.waiting;
-    seat->second.told.push_back({.id = next.command.id, .seq = seq()});
+    seat->second.told.push_back(protocol::Applied{.id = next.command.id, .seq = seq()});
   }
 }
 
 void Room::acknowledge() {
   for (auto& [id, seat] : seats_)
-    if (!seat.told.empty()) seat.viewer->applied(std::exchange(seat.told, {}));
+    if (!seat.told.empty()) seat.viewer->answered(std::exchange(seat.told, {}));
 }
 
 void Room::let_go() {

@@ -84,6 +84,15 @@ class Room : public std::enable_shared_from_this<Room> {
   [[nodiscard]] protocol::Result<void> look(ViewerId viewer, const protocol::View& view);
   /// The viewer has sent the last parcel on, and takes the next one.
   void ready(ViewerId viewer);
+  /// The viewer has sent the last talk on, and takes the next one.
+  void heard(ViewerId viewer);
+
+  /// Where the viewer points, for the others. Fails with out_of_range for a place beyond what an
+  /// edit may have. What comes faster than kCursorsPerSecond replaces what was not shown yet.
+  [[nodiscard]] protocol::Result<void> point(ViewerId viewer, const protocol::Cursor& cursor);
+  /// Tells the viewer all events from `from_seq` on, and those to come. Fails with out_of_range
+  /// beyond the next seq. Asked again, it starts anew from there.
+  [[nodiscard]] protocol::Result<void> follow(ViewerId viewer, std::uint64_t from_seq);
 
   struct Command {
     protocol::MessageId id = 0;
@@ -113,10 +122,10 @@ class Room : public std::enable_shared_from_this<Room> {
     std::shared_ptr<Viewer> viewer;
     protocol::User user;
     Subscription subscription;
-    bool ready = true;                    // to take a parcel
-    std::size_t waiting = 0;              // edits in line
-    std::vector<protocol::Applied> told;  // of this turn
-    std::function<void()> gone;           // set: it leaves when none waits
+    bool ready = true;           // to take a parcel
+    std::size_t waiting = 0;     // edits in line
+    std::vector<Reply> told;     // of this turn
+    std::function<void()> gone;  // set: it leaves when none waits
   };
   struct Waiting {
     ViewerId viewer = 0;

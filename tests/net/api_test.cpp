@@ -40,8 +40,9 @@ struct ApiTest : testing::Test {
   HttpResponse create(const std::string& body) { return ask(request("POST", "/api/maps", body)); }
   void paint(const std::string& map, std::vector<protocol::Edit> edits) {
     struct Blind final : room::Viewer {
-      void applied(std::vector<protocol::Applied>) override {}
+      void answered(std::vector<room::Reply>) override {}
       void deliver(room::Parcel) override {}
+      void tell(room::Talk) override {}
       void end(protocol::Bye) override {}
     };
     const auto room = atlas.find(map);

@@ -82,7 +82,7 @@ Joined joined() {
   joined.epoch = hex_text(16);
   joined.seq = seq();
   for (auto left = *inRange(0, 4); left > 0; --left)
-    joined.users.push_back({hex_text(16), person(), color()});
+    joined.users.push_back({hex_text(16), person(), color(), hex_text(16)});
   joined.id = maybe_id();
   return joined;
 }
@@ -175,7 +175,7 @@ rc::Gen<ClientMessage> any_client_message() {
       case 6:
         return Redo{id()};
       case 7:
-        return Cursor{real(), real(), maybe_id()};
+        return Cursor{MapPoint{real(), real()}, {}, maybe_id()};
       case 8:
         return Events{seq() + 1, maybe_id()};
       default:

@@ -89,7 +89,8 @@ TEST(Golden, ClientMessages) {
           View{.n = 1, .rect = MapRect{-16, -16, 48, 48}, .have = {}, .id = 3},
           View{.n = 2, .rect = {}, .have = Have{"fedcba9876543210", 258, {0, 0, 64, 64}}, .id = {}},
           EditMessage{4, stamp}, EditMessage{5, stroke}, Undo{6}, Redo{7},
-          Cursor{.x = 1, .y = 2, .id = {}}, Events{.from_seq = 1, .id = 8}, Ping{9}, Leave{10}));
+          Cursor{.at = MapPoint{1, 2}, .brush = {}, .id = {}}, Events{.from_seq = 1, .id = 8},
+          Ping{9}, Leave{10}));
 }
 
 TEST(Golden, ServerMessages) {
@@ -101,7 +102,7 @@ TEST(Golden, ServerMessages) {
                              .settings = {},
                              .epoch = "fedcba9876543210",
                              .seq = 258,
-                             .users = {{session, "Jö", "#aabbcc"}},
+                             .users = {{session, "Jö", "#aabbcc", session}},
                              .id = 2},
                       Applied{4, 259}, Rejected{5, far}, CaughtUp{1, 259}, Done{9},
                       Bye{{Code::shutting_down, "the server ends", ""}, 1000}));

@@ -37,9 +37,15 @@ ChunkRecord decoded(const RecordBytes& bytes) {
   return protocol::decode_record(std::as_bytes(std::span(*bytes))).value();
 }
 
-void Onlooker::applied(std::vector<protocol::Applied> replies) {
-  acks.insert(acks.end(), replies.begin(), replies.end());
+void Onlooker::answered(std::vector<Reply> replies) {
+  for (const Reply& reply : replies) {
+    if (const auto* applied = std::get_if<protocol::Applied>(&reply)) acks.push_back(*applied);
+    if (const auto* rejected = std::get_if<protocol::Rejected>(&reply))
+      refusals.push_back(*rejected);
+  }
 }
+
+void Onlooker::tell(Talk talk) { talks.push_back(std::move(talk)); }
 
 void Onlooker::deliver(Parcel parcel) {
   for (const auto* records : {&parcel.group_records, &parcel.first_seen}) {

@@ -13,7 +13,8 @@ namespace earthwork::room {
 
 class Onlooker final : public Viewer {
  public:
-  void applied(std::vector<protocol::Applied> replies) override;
+  void answered(std::vector<Reply> replies) override;
+  void tell(Talk talk) override;
   void deliver(Parcel parcel) override;
   void end(protocol::Bye why) override { bye = std::move(why); }
 
@@ -25,6 +26,8 @@ class Onlooker final : public Viewer {
   void forget_parcels() { parcels.clear(); }
 
   std::vector<protocol::Applied> acks;
+  std::vector<protocol::Rejected> refusals;
+  std::vector<Talk> talks;
   std::vector<Parcel> parcels;
   std::optional<protocol::Bye> bye;
   std::map<protocol::ChunkKey, protocol::ChunkRecord> chunks;

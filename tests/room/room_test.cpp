@@ -64,7 +64,8 @@ TEST_F(RoomTest, KeepsWhatItAccepted) {
 TEST_F(RoomTest, TellsWhoIsThere) {
   Guest a = enter("ann");
   auto bob = std::make_shared<Onlooker>();
-  const auto entrance = room->join(bob, {"00000000000000bb", "bob", "#000000"}).value();
+  const auto entrance =
+      room->join(bob, {"00000000000000bb", "bob", "#000000", "00000000000000b0"}).value();
   EXPECT_EQ(entrance.joined.map, "m");
   EXPECT_EQ(entrance.joined.epoch, "000000000000abcd");
   EXPECT_EQ(entrance.joined.seq, 0u);
@@ -298,8 +299,9 @@ TEST_F(RoomTest, SoManyPointsMayWaitAndNotOneMore) {
 
 TEST_F(RoomTest, AMistakeOfItsOwnClosesItWithAWord) {
   struct Broken final : Viewer {
-    void applied(std::vector<protocol::Applied>) override { throw std::runtime_error("broken"); }
+    void answered(std::vector<Reply>) override { throw std::runtime_error("broken"); }
     void deliver(Parcel) override {}
+    void tell(Talk) override {}
     void end(protocol::Bye) override {}
   };
   Guest a = enter();

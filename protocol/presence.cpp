@@ -1,0 +1,146 @@
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "protocol/message_fields.hpp"
+#include "protocol/presence_fields.hpp"
+
+namespace earthwork::protocol {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+// As many as fit into a message, each at its shortest.
+constexpr std::size_t kMostListed = kMaxServerControlBytes / 16;
+
+/// The elements of an array of objects, each read by `read` from its fields.
+template <class T>
+std::vector<T> read_list(JsonFields& in, const char* key, Result<T> (*read)(JsonFields)) {
+  std::vector<T> out;
+  const json* array = in.array(key, 0, kMostListed);
+  if (!array) return out;
+  for (const json& element : *array) {
+    auto item = read(JsonFields(element, in.path(key) + "[" + std::to_string(out.size()) + "]"));
+    if (!item) {
+      in.refuse(std::move(item.error()));
+      break;
+    }
+    out.push_back(std::move(*item));
+  }
+  return out;
+}
+
+Result<User> read_user(JsonFields in) {
+  User user{.session = in.hex_digits("session", kSessionDigits),
+            .name = in.name("name"),
+            .color = in.color("color"),
+            .author = in.hex_digits("author", kAuthorDigits)};
+  return in.result(std::move(user));
+}
+
+Result<UserCursor> read_user_cursor(JsonFields in) {
+  UserCursor cursor{.session = in.hex_digits("session", kSessionDigits),
+                    .at = read_place(in),
+                    .brush = read_brush(in)};
+  return in.result(std::move(cursor));
+}
+
+Result<Brush> read_brush_fields(JsonFields in) {
+  Brush brush;
+  brush.stencil = read_stencil(in);
+  brush.radius = in.number("radius");
+  if (brush.radius < 0) in.refuse(Code::out_of_range, "radius", "is below 0");
+  brush.fill = in.boolean("fill");
+  if (in.has("layer"))
+    brush.layer = static_cast<std::uint32_t>(in.integer("layer", {0, kMaxLayers - 1}));
+  return in.result(brush);
+}
+
+std::vector<std::string> read_left(JsonFields& in) {
+  std::vector<std::string> left;
+  const json* array = in.array("left", 0, kMostListed);
+  if (!array) return left;
+  for (const json& element : *array) {
+    // An element has no key of its own: it is read as the field of an object made for it.
+    const json object{{"left", element}};
+    JsonFields one(object);
+    left.push_back(one.hex_digits("left", kSessionDigits));
+    if (auto read = one.result(true); !read) {
+      in.refuse(std::move(read.error()));
+      break;
+    }
+  }
+  return left;
+}
+
+}  // namespace
+
+std::optional<MapPoint> read_place(JsonFields& in) {
+  if (in.has("hidden") && in.boolean("hidden")) return std::nullopt;
+  return MapPoint{.x = in.number("x"), .y = in.number("y")};
+}
+
+void write_place(const std::optional<MapPoint>& at, ordered_json& out) {
+  if (at) {
+    out["x"] = at->x;
+    out["y"] = at->y;
+  } else {
+    out["hidden"] = true;
+  }
+}
+
+std::optional<Brush> read_brush(JsonFields& in) {
+  const json* object = in.has("brush") ? in.value("brush") : nullptr;
+  if (!object) return std::nullopt;
+  auto brush = read_brush_fields(JsonFields(*object, in.path("brush")));
+  if (brush) return *brush;
+  in.refuse(std::move(brush.error()));
+  return std::nullopt;
+}
+
+void write_brush(const std::optional<Brush>& brush, ordered_json& out) {
+  if (!brush) return;
+  ordered_json& fields = out["brush"];
+  fields["stencil"] = name(brush->stencil);
+  fields["radius"] = brush->radius;
+  fields["fill"] = brush->fill;
+  if (brush->layer != 0) fields["layer"] = brush->layer;
+}
+
+std::vector<User> read_users(JsonFields& in) { return read_list<User>(in, "users", read_user); }
+
+ordered_json write_users(const std::vector<User>& users) {
+  auto out = ordered_json::array();
+  for (const User& user : users)
+    out.push_back({{"session", user.session},
+                   {"name", user.name},
+                   {"color", user.color},
+                   {"author", user.author}});
+  return out;
+}
+
+Result<ServerMessage> read_presence(JsonFields& in) {
+  Presence presence;
+  presence.all = in.has("all") && in.boolean("all");
+  if (in.has("users")) presence.users = read_users(in);
+  if (in.has("left")) presence.left = read_left(in);
+  if (in.has("cursors")) presence.cursors = read_list<UserCursor>(in, "cursors", read_user_cursor);
+  return in.result<ServerMessage>(std::move(presence));
+}
+
+void write_presence(const Presence& presence, ordered_json& out) {
+  if (presence.all) out["all"] = true;
+  if (!presence.users.empty()) out["users"] = write_users(presence.users);
+  if (!presence.left.empty()) out["left"] = presence.left;
+  if (presence.cursors.empty()) return;
+  auto& cursors = out["cursors"] = ordered_json::array();
+  for (const UserCursor& cursor : presence.cursors) {
+    ordered_json one{{"session", cursor.session}};
+    write_place(cursor.at, one);
+    write_brush(cursor.brush, one);
+    cursors.push_back(std::move(one));
+  }
+}
+
+}  // namespace earthwork::protocol

@@ -1,0 +1,29 @@
+/// What is said of people, in messages of both sides: who they are, where they point, and with
+/// which brush.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
+
+#include "protocol/json_fields.hpp"
+#include "protocol/messages.hpp"
+
+namespace earthwork::protocol {
+
+/// x and y, or "hidden": true, which is no place; without either it is refused.
+std::optional<MapPoint> read_place(JsonFields& in);
+void write_place(const std::optional<MapPoint>& at, nlohmann::ordered_json& out);
+
+/// "brush": {stencil, radius, fill, layer?}; nothing when it is missing.
+std::optional<Brush> read_brush(JsonFields& in);
+void write_brush(const std::optional<Brush>& brush, nlohmann::ordered_json& out);
+
+/// The array "users".
+std::vector<User> read_users(JsonFields& in);
+[[nodiscard]] nlohmann::ordered_json write_users(const std::vector<User>& users);
+
+[[nodiscard]] Result<ServerMessage> read_presence(JsonFields& in);
+void write_presence(const Presence& presence, nlohmann::ordered_json& out);
+
+}  // namespace earthwork::protocol
