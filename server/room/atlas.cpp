@@ -8,8 +8,8 @@ namespace earthwork::room {
 
 using protocol::Code;
 
-Atlas::Atlas(std::function<std::unique_ptr<Strand>()> make_strand)
-    : make_strand_(std::move(make_strand)) {}
+Atlas::Atlas(std::function<std::unique_ptr<Strand>()> make_strand, std::shared_ptr<Meters> meters)
+    : make_strand_(std::move(make_strand)), meters_(std::move(meters)) {}
 
 protocol::Result<std::shared_ptr<Room>> Atlas::create(const std::string& name,
                                                       const protocol::MapSettings& settings) {
@@ -21,7 +21,7 @@ protocol::Result<std::shared_ptr<Room>> Atlas::create(const std::string& name,
   if (rooms_.size() >= kMaxMaps)
     return protocol::fail(Code::too_large,
                           "the server has " + std::to_string(kMaxMaps) + " maps, its most");
-  auto room = std::make_shared<Room>(name, settings, random_u64(), make_strand_());
+  auto room = std::make_shared<Room>(name, settings, random_u64(), make_strand_(), meters_);
   rooms_.emplace(name, room);
   return room;
 }

@@ -20,8 +20,9 @@ inline constexpr std::size_t kMaxMaps = 4096;
 /// Any thread.
 class Atlas {
  public:
-  /// `make_strand` is called for each new room, from any thread.
-  explicit Atlas(std::function<std::unique_ptr<Strand>()> make_strand);
+  /// `make_strand` is called for each new room, from any thread. All rooms count in `meters`.
+  explicit Atlas(std::function<std::unique_ptr<Strand>()> make_strand,
+                 std::shared_ptr<Meters> meters = std::make_shared<Meters>());
 
   /// A new, empty map. `settings` is valid. Fails with bad_name, with map_exists, and with
   /// too_large when there are kMaxMaps.
@@ -33,9 +34,11 @@ class Atlas {
   [[nodiscard]] std::vector<std::shared_ptr<Room>> list() const;
   /// Takes the map out and says `bye` to its viewers; false when there is none.
   bool erase(std::string_view name);
+  [[nodiscard]] Meters& meters() const { return *meters_; }
 
  private:
   std::function<std::unique_ptr<Strand>()> make_strand_;
+  std::shared_ptr<Meters> meters_;
   mutable std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Room>, std::less<>> rooms_;
 };

@@ -33,11 +33,12 @@ std::uint64_t chunk_visits(const protocol::Edit& edit, const protocol::MapSettin
 }  // namespace
 
 Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch,
-           std::unique_ptr<Strand> strand)
+           std::unique_ptr<Strand> strand, std::shared_ptr<Meters> meters)
     : name_(std::move(name)),
       settings_(std::move(settings)),
       epoch_(epoch),
       strand_(std::move(strand)),
+      meters_(std::move(meters)),
       map_(history::make_map(settings_)),
       meshes_(settings_.max_feature_angle) {}
 
@@ -164,6 +165,7 @@ void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
   waiting_points_ -= next.command.edit.path.size();
 
   const voxel::Change& change = history::apply(map_, next.command.edit);
+  ++meters_->edits;
   meshes_.mark_stale(change);
   for (const voxel::DirtyChunk& chunk : change.dirty) dirty.push_back(chunk.key);
 

@@ -16,6 +16,7 @@
 #include "server/history/event.hpp"
 #include "server/mesh/figures.hpp"
 #include "server/room/mesh_cache.hpp"
+#include "server/room/meters.hpp"
 #include "server/room/states_picture.hpp"
 #include "server/room/strand.hpp"
 #include "server/room/subscription.hpp"
@@ -58,9 +59,9 @@ struct MeshSnapshot {
 /// `internal`, and the exception goes on to the strand.
 class Room : public std::enable_shared_from_this<Room> {
  public:
-  /// An empty map. `settings` is valid.
+  /// An empty map. `settings` is valid. What it does is counted in `meters`.
   Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch,
-       std::unique_ptr<Strand> strand);
+       std::unique_ptr<Strand> strand, std::shared_ptr<Meters> meters);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const protocol::MapSettings& settings() const { return settings_; }
@@ -149,6 +150,7 @@ class Room : public std::enable_shared_from_this<Room> {
   const protocol::MapSettings settings_;
   const std::uint64_t epoch_;
   const std::unique_ptr<Strand> strand_;
+  const std::shared_ptr<Meters> meters_;
 
   voxel::Map map_;
   MeshCache meshes_;

@@ -13,7 +13,8 @@ void must(const protocol::Result<void>& result) {
 }  // namespace
 
 World::World(protocol::MapSettings settings) {
-  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, context.make_strand());
+  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, context.make_strand(),
+                                std::make_shared<Meters>());
 }
 
 World::Guest World::enter(const char* name) {
