@@ -55,6 +55,7 @@ class MeshCache {
   [[nodiscard]] std::vector<voxel::ChunkKey> keys() const;
   /// How many chunks `may_have_mesh`; takes time with the stale ones.
   [[nodiscard]] std::size_t count() const;
+  [[nodiscard]] std::size_t stale_count() const { return stale_.size(); }
 
   /// True figures only when nothing is stale.
   [[nodiscard]] const MeshTotals& totals() const { return totals_; }

@@ -1,9 +1,7 @@
 #include "server/room/room.hpp"
 
-#include <algorithm>
 #include <utility>
 
-#include "protocol/limits.hpp"
 #include "server/history/fold.hpp"
 
 namespace earthwork::room {
@@ -18,8 +16,6 @@ constexpr int kTurnEdits = 512;
 constexpr std::size_t kTurnDirtyChunks = 1024;
 constexpr std::uint64_t kTurnChunkVisits = 65536;
 
-// A group without a chunk says how far the map is: at most 10 a second.
-constexpr std::chrono::milliseconds kBeat{100};
 // `joined` lists this many; it stays far below kMaxServerControlBytes.
 constexpr std::size_t kMaxListedUsers = 1000;
 
@@ -40,7 +36,10 @@ Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch
       strand_(std::move(strand)),
       meters_(std::move(meters)),
       map_(history::make_map(settings_)),
-      meshes_(settings_.max_feature_angle) {}
+      publisher_(map_, settings_, epoch_,
+                 [this](std::chrono::milliseconds delay, std::function<void()> task) {
+                   run_later(delay, std::move(task));
+                 }) {}
 
 protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, protocol::User user) {
   if (closed_) return tl::unexpected<protocol::Failure>(*closed_);
@@ -48,6 +47,7 @@ protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, prot
   Seat& seat = seats_[id];
   seat.viewer = std::move(viewer);
   seat.user = std::move(user);
+  publisher_.enter(id, *seat.viewer);
 
   protocol::Joined joined{.map = name_,
                           .settings = settings_,
@@ -62,12 +62,16 @@ protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, prot
   return Entrance{id, std::move(joined)};
 }
 
-void Room::leave(ViewerId viewer) { seats_.erase(viewer); }
+void Room::leave(ViewerId viewer) {
+  publisher_.leave(viewer);
+  seats_.erase(viewer);
+}
 
 void Room::leave_when_told(ViewerId viewer, std::function<void()> gone) {
   const auto found = seats_.find(viewer);
   if (found != seats_.end() && found->second.waiting > 0) {
     found->second.gone = std::move(gone);
+    publisher_.leave(viewer);
     return;
   }
   leave(viewer);
@@ -75,26 +79,11 @@ void Room::leave_when_told(ViewerId viewer, std::function<void()> gone) {
 }
 
 protocol::Result<void> Room::look(ViewerId viewer, const protocol::View& view) {
-  const auto found = seats_.find(viewer);
-  if (found == seats_.end()) return protocol::fail(Code::bad_state, "view: join a map first");
-  if (auto checked = protocol::check_view(view, settings_); !checked) return checked;
-  if (!view.rect && meshes_.count() > protocol::kMaxViewChunks)
-    return protocol::fail(Code::too_large,
-                          "all: the map has " + std::to_string(meshes_.count()) +
-                              " chunks, beyond a view's limit of " +
-                              std::to_string(protocol::kMaxViewChunks),
-                          "all");
-  found->second.subscription.look(view, settings_, state());
-  schedule_turn();
-  return {};
+  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "view: join a map first");
+  return publisher_.look(viewer, view);
 }
 
-void Room::ready(ViewerId viewer) {
-  const auto found = seats_.find(viewer);
-  if (found == seats_.end()) return;
-  found->second.ready = true;
-  publish_to(found->second, Beat::wait);
-}
+void Room::ready(ViewerId viewer) { publisher_.ready(viewer); }
 
 void Room::heard(ViewerId) {}
 
@@ -123,9 +112,9 @@ protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
   return {};
 }
 
-void Room::run(void (Room::*task)()) {
+void Room::run(const std::function<void()>& task) {
   try {
-    (this->*task)();
+    task();
   } catch (...) {
     close({.failure = {Code::internal, "map: it ended after a mistake of the server", "map"},
            .retry_after_ms = {}});
@@ -133,41 +122,48 @@ void Room::run(void (Room::*task)()) {
   }
 }
 
+void Room::run_later(std::chrono::milliseconds delay, std::function<void()> task) {
+  auto guarded = [weak = weak_from_this(), task = std::move(task)] {
+    if (const auto self = weak.lock()) self->run(task);
+  };
+  if (delay.count() == 0)
+    strand_->post(std::move(guarded));
+  else
+    strand_->post_after(delay, std::move(guarded));
+}
+
 void Room::schedule_turn() {
   if (turn_scheduled_) return;
   turn_scheduled_ = true;
-  strand_->post([self = shared_from_this()] { self->run(&Room::turn); });
+  strand_->post([self = shared_from_this()] { self->run([&] { self->turn(); }); });
 }
 
 void Room::turn() {
   turn_scheduled_ = false;
-  std::vector<voxel::ChunkKey> dirty;
+  std::size_t dirty_chunks = 0;
   std::uint64_t visits = 0;
-  for (int n = 0; n < kTurnEdits && dirty.size() < kTurnDirtyChunks && visits < kTurnChunkVisits &&
+  for (int n = 0; n < kTurnEdits && dirty_chunks < kTurnDirtyChunks && visits < kTurnChunkVisits &&
                   !waiting_.empty();
        ++n) {
     visits += chunk_visits(waiting_.front().command.edit, settings_);
-    apply_next(dirty);
+    dirty_chunks += apply_next();
   }
-  std::sort(dirty.begin(), dirty.end());
-  dirty.erase(std::unique(dirty.begin(), dirty.end()), dirty.end());
-  for (auto& [id, seat] : seats_) seat.subscription.owe(dirty);
-
   acknowledge();
   let_go();
-  publish(Beat::wait);
+  publisher_.show(seq());
   if (!waiting_.empty()) schedule_turn();
 }
 
-void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
+/// Gives back how many chunks are to be meshed again.
+std::size_t Room::apply_next() {
   Waiting next = std::move(waiting_.front());
   waiting_.pop_front();
   waiting_points_ -= next.command.edit.path.size();
 
   const voxel::Change& change = history::apply(map_, next.command.edit);
   ++meters_->edits;
-  meshes_.mark_stale(change);
-  for (const voxel::DirtyChunk& chunk : change.dirty) dirty.push_back(chunk.key);
+  publisher_.changed(change);
+  const std::size_t dirty_chunks = change.dirty.size();
 
   events_.push_back({.seq = seq() + 1,
                      .time_ms = strand_->now_ms(),
@@ -177,6 +173,7 @@ void Room::apply_next(std::vector<voxel::ChunkKey>& dirty) {
     --seat->second.waiting;
     seat->second.told.push_back(protocol::Applied{.id = next.command.id, .seq = seq()});
   }
+  return dirty_chunks;
 }
 
 void Room::acknowledge() {
@@ -196,42 +193,9 @@ void Room::let_go() {
   }
 }
 
-void Room::publish(Beat beat) {
-  for (auto& [id, seat] : seats_) publish_to(seat, beat);
-}
-
-void Room::publish_to(Seat& seat, Beat beat) {
-  if (!seat.ready || seat.gone) return;
-  const bool due = beat == Beat::due && seat.subscription.behind(seq());
-  if (due || seat.subscription.waiting()) {
-    if (Parcel parcel = seat.subscription.compose(state(), beat); !parcel.empty()) {
-      seat.ready = false;
-      seat.viewer->deliver(std::move(parcel));
-    } else if (seat.subscription.waiting()) {
-      schedule_turn();  // a stretch of a first load that held nothing
-    }
-  }
-  if (seat.ready && seat.subscription.behind(seq())) schedule_beat();
-}
-
-void Room::schedule_beat() {
-  if (beat_scheduled_) return;
-  beat_scheduled_ = true;
-  strand_->post_after(kBeat, [weak = weak_from_this()] {
-    if (const auto self = weak.lock()) self->run(&Room::beat);
-  });
-}
-
-void Room::beat() {
-  beat_scheduled_ = false;
-  publish(Beat::due);
-}
-
 RoomInfo Room::info() {
   return {.seq = seq(), .hash = map_.hash(), .chunks = map_.chunk_count(), .users = seats_.size()};
 }
-
-bool Room::refresh_meshes(std::size_t budget) { return meshes_.refresh(map_, seq(), budget); }
 
 RoomFigures Room::figures() {
   if (!figures_ || figures_->seq != seq())
@@ -240,12 +204,12 @@ RoomFigures Room::figures() {
                            .chunks = map_.chunk_count(),
                            .voxel_bytes = map_.memory_bytes(),
                            .geometry = mesh::count_figures(map_, settings_.max_feature_angle),
-                           .meshes = meshes_.totals()};
+                           .meshes = publisher_.totals()};
   return *figures_;
 }
 
 MeshSnapshot Room::meshes() const {
-  return {.seq = seq(), .mesh_hash = meshes_.totals().hash, .records = meshes_.records()};
+  return {.seq = seq(), .mesh_hash = publisher_.totals().hash, .records = publisher_.records()};
 }
 
 protocol::Result<StatesPicture> Room::states(std::uint64_t layer) const {
@@ -256,6 +220,7 @@ void Room::close(const protocol::Bye& bye) {
   closed_ = bye.failure;
   waiting_.clear();
   waiting_points_ = 0;
+  publisher_.leave_all();
   for (auto& [id, seat] : std::exchange(seats_, {})) seat.viewer->end(bye);
 }
 

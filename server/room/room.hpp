@@ -1,6 +1,7 @@
 /// A live map: it gives edits their order, applies them, and shows them to its viewers.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -15,18 +16,14 @@
 #include "protocol/settings.hpp"
 #include "server/history/event.hpp"
 #include "server/mesh/figures.hpp"
-#include "server/room/mesh_cache.hpp"
 #include "server/room/meters.hpp"
+#include "server/room/publisher.hpp"
 #include "server/room/states_picture.hpp"
 #include "server/room/strand.hpp"
-#include "server/room/subscription.hpp"
 #include "server/room/viewer.hpp"
 #include "server/voxel/map.hpp"
 
 namespace earthwork::room {
-
-/// Given when a viewer joins; never used twice in one room.
-using ViewerId = std::uint64_t;
 
 /// Centres of edits that wait to be applied, of all viewers together. A message that has one is
 /// much larger, so this bounds what a crowd of editors can make a map hold.
@@ -107,7 +104,7 @@ class Room : public std::enable_shared_from_this<Room> {
 
   [[nodiscard]] RoomInfo info();
   /// Brings up to `budget` chunks' meshes up to date; true when all are.
-  [[nodiscard]] bool refresh_meshes(std::size_t budget);
+  [[nodiscard]] bool refresh_meshes(std::size_t budget) { return publisher_.refresh(budget); }
   /// After `refresh_meshes` gave true in the same task.
   [[nodiscard]] RoomFigures figures();
   [[nodiscard]] MeshSnapshot meshes() const;
@@ -122,8 +119,6 @@ class Room : public std::enable_shared_from_this<Room> {
   struct Seat {
     std::shared_ptr<Viewer> viewer;
     protocol::User user;
-    Subscription subscription;
-    bool ready = true;           // to take a parcel
     std::size_t waiting = 0;     // edits in line
     std::vector<Reply> told;     // of this turn
     std::function<void()> gone;  // set: it leaves when none waits
@@ -133,17 +128,13 @@ class Room : public std::enable_shared_from_this<Room> {
     Command command;
   };
 
-  void run(void (Room::*task)());
+  void run(const std::function<void()>& task);
+  void run_later(std::chrono::milliseconds delay, std::function<void()> task);
   void schedule_turn();
   void turn();
-  void apply_next(std::vector<voxel::ChunkKey>& dirty);
+  std::size_t apply_next();
   void acknowledge();
   void let_go();
-  void publish(Beat beat);
-  void publish_to(Seat& seat, Beat beat);
-  void schedule_beat();
-  void beat();
-  [[nodiscard]] MapState state() { return {map_, meshes_, epoch_, seq()}; }
   [[nodiscard]] std::uint64_t seq() const { return events_.size(); }
 
   const std::string name_;
@@ -153,14 +144,14 @@ class Room : public std::enable_shared_from_this<Room> {
   const std::shared_ptr<Meters> meters_;
 
   voxel::Map map_;
-  MeshCache meshes_;
+  Publisher publisher_;
   std::vector<history::Event> events_;  // event n at n - 1
   std::deque<Waiting> waiting_;
   std::size_t waiting_points_ = 0;  // of all that waits: at most kMaxWaitingPoints
   std::map<ViewerId, Seat> seats_;
   ViewerId last_viewer_ = 0;
   std::optional<RoomFigures> figures_;  // the last ones asked for
-  bool turn_scheduled_ = false, beat_scheduled_ = false;
+  bool turn_scheduled_ = false;
   std::optional<protocol::Failure> closed_;  // why
 };
 
