@@ -22,6 +22,14 @@ std::optional<std::int64_t> as_integer(const json& value) {
 
 bool is_hex_digit(char c) { return ('0' <= c && c <= '9') || ('a' <= c && c <= 'f'); }
 
+bool is_hex(std::string_view text, std::size_t digits) {
+  return text.size() == digits && std::all_of(text.begin(), text.end(), is_hex_digit);
+}
+
+std::string hex_sentence(std::size_t digits) {
+  return "is not " + std::to_string(digits) + " hex digits in lower case";
+}
+
 /// Code points of valid UTF-8: bytes that do not continue one.
 std::size_t count_characters(std::string_view utf8) {
   return static_cast<std::size_t>(
@@ -135,9 +143,26 @@ std::string JsonFields::color(const char* key) {
 
 std::string JsonFields::hex_digits(const char* key, std::size_t digits) {
   std::string hex = text(key);
-  if (hex.size() != digits || !std::all_of(hex.begin(), hex.end(), is_hex_digit))
-    refuse(Code::bad_field, key, "is not " + std::to_string(digits) + " hex digits in lower case");
+  if (!is_hex(hex, digits)) refuse(Code::bad_field, key, hex_sentence(digits));
   return hex;
+}
+
+std::vector<std::string> JsonFields::hex_list(const char* key, std::size_t digits,
+                                              std::size_t max) {
+  std::vector<std::string> list;
+  const json* found = array(key, 0, max);
+  if (!found) return list;
+  list.reserve(found->size());
+  for (const json& element : *found) {
+    const auto* hex = element.get_ptr<const std::string*>();
+    if (!hex || !is_hex(*hex, digits)) {
+      refuse(Code::bad_field, key,
+             "element " + std::to_string(list.size()) + " " + hex_sentence(digits));
+      return list;
+    }
+    list.push_back(*hex);
+  }
+  return list;
 }
 
 std::string JsonFields::map_name(const char* key) {

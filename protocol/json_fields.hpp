@@ -47,6 +47,8 @@ class JsonFields {
   std::string color(const char* key);
   /// Exactly `digits` hex digits, lower case.
   std::string hex_digits(const char* key, std::size_t digits);
+  /// An array of up to `max` such strings.
+  std::vector<std::string> hex_list(const char* key, std::size_t digits, std::size_t max);
   /// A map's name; bad_name otherwise.
   std::string map_name(const char* key);
   /// An array of exactly `count` numbers.

@@ -1,3 +1,4 @@
+// What people see of each other: users, cursors, brushes.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -11,8 +12,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-// As many as fit into a message, each at its shortest.
-constexpr std::size_t kMostListed = kMaxServerControlBytes / 16;
+// More do not fit into a message: each has at least a session.
+constexpr std::size_t kMostListed = kMaxServerControlBytes / kSessionDigits;
 
 /// The elements of an array of objects, each read by `read` from its fields.
 template <class T>
@@ -57,27 +58,14 @@ Result<Brush> read_brush_fields(JsonFields in) {
   return in.result(brush);
 }
 
-std::vector<std::string> read_left(JsonFields& in) {
-  std::vector<std::string> left;
-  const json* array = in.array("left", 0, kMostListed);
-  if (!array) return left;
-  for (const json& element : *array) {
-    // An element has no key of its own: it is read as the field of an object made for it.
-    const json object{{"left", element}};
-    JsonFields one(object);
-    left.push_back(one.hex_digits("left", kSessionDigits));
-    if (auto read = one.result(true); !read) {
-      in.refuse(std::move(read.error()));
-      break;
-    }
-  }
-  return left;
-}
-
 }  // namespace
 
 std::optional<MapPoint> read_place(JsonFields& in) {
-  if (in.has("hidden") && in.boolean("hidden")) return std::nullopt;
+  if (in.has("hidden") && in.boolean("hidden")) {
+    if (in.has("x") || in.has("y"))
+      in.refuse(Code::bad_field, "hidden", "does not go with x and y");
+    return std::nullopt;
+  }
   return MapPoint{.x = in.number("x"), .y = in.number("y")};
 }
 
@@ -124,7 +112,7 @@ Result<ServerMessage> read_presence(JsonFields& in) {
   Presence presence;
   presence.all = in.has("all") && in.boolean("all");
   if (in.has("users")) presence.users = read_users(in);
-  if (in.has("left")) presence.left = read_left(in);
+  if (in.has("left")) presence.left = in.hex_list("left", kSessionDigits, kMostListed);
   if (in.has("cursors")) presence.cursors = read_list<UserCursor>(in, "cursors", read_user_cursor);
   return in.result<ServerMessage>(std::move(presence));
 }

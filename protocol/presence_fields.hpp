@@ -11,7 +11,7 @@
 
 namespace earthwork::protocol {
 
-/// x and y, or "hidden": true, which is no place; without either it is refused.
+/// x and y, or in place of them "hidden": true, which is no place.
 std::optional<MapPoint> read_place(JsonFields& in);
 void write_place(const std::optional<MapPoint>& at, nlohmann::ordered_json& out);
 

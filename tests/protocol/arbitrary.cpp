@@ -75,16 +75,47 @@ Join join() {
   return join;
 }
 
+User user() { return {hex_text(16), person(), color(), hex_text(16)}; }
+
 Joined joined() {
   Joined joined;
   joined.map = map_name();
   joined.settings = *any_settings();
   joined.epoch = hex_text(16);
   joined.seq = seq();
-  for (auto left = *inRange(0, 4); left > 0; --left)
-    joined.users.push_back({hex_text(16), person(), color(), hex_text(16)});
+  for (auto left = *inRange(0, 4); left > 0; --left) joined.users.push_back(user());
   joined.id = maybe_id();
   return joined;
+}
+
+std::optional<MapPoint> maybe_point() {
+  if (*inRange(0, 4) == 0) return std::nullopt;
+  return MapPoint{real(), real()};
+}
+
+std::optional<Brush> maybe_brush() {
+  if (*inRange(0, 2) == 0) return std::nullopt;
+  return Brush{.stencil = *rc::gen::element(StencilShape::square, StencilShape::circle),
+               .radius = std::abs(real()),
+               .fill = *inRange(0, 2) == 1,
+               .layer = *inRange(0u, 16u)};
+}
+
+Presence presence() {
+  Presence presence{.all = *inRange(0, 2) == 1, .users = {}, .left = {}, .cursors = {}};
+  for (auto n = *inRange(0, 4); n > 0; --n) presence.users.push_back(user());
+  for (auto n = *inRange(0, 4); n > 0; --n) presence.left.push_back(hex_text(16));
+  for (auto n = *inRange(0, 4); n > 0; --n)
+    presence.cursors.push_back({hex_text(16), maybe_point(), maybe_brush()});
+  return presence;
+}
+
+Event event() {
+  return {.seq = seq() + 1,
+          .time_ms = *inRange<std::int64_t>(-kMaxInteger, kMaxInteger),
+          .author = hex_text(16),
+          .edit = *any_edit(),
+          .hash = hex_text(16)};
 }
 
 Failure failure() {
@@ -175,7 +206,7 @@ rc::Gen<ClientMessage> any_client_message() {
       case 6:
         return Redo{id()};
       case 7:
-        return Cursor{MapPoint{real(), real()}, {}, maybe_id()};
+        return Cursor{maybe_point(), maybe_brush(), maybe_id()};
       case 8:
         return Events{seq() + 1, maybe_id()};
       default:
@@ -186,7 +217,7 @@ rc::Gen<ClientMessage> any_client_message() {
 
 rc::Gen<ServerMessage> any_server_message() {
   return rc::gen::exec([]() -> ServerMessage {
-    switch (*inRange(0, 7)) {
+    switch (*inRange(0, 9)) {
       case 0:
         return Welcome{hex_text(16), hex_text(32), *inRange(1, 65536), maybe_id()};
       case 1:
@@ -199,6 +230,10 @@ rc::Gen<ServerMessage> any_server_message() {
         return CaughtUp{*inRange<std::uint32_t>(0, UINT32_MAX), seq()};
       case 5:
         return Done{id()};
+      case 6:
+        return presence();
+      case 7:
+        return event();
       default:
         return bye();
     }

@@ -31,6 +31,8 @@ TEST(ClientMessage, IsWrittenAsItIsRead) {
           R"({"type":"undo","id":7})",
           R"({"type":"redo","id":8})",
           R"({"type":"cursor","x":0.25,"y":-1.0})",
+          R"({"type":"cursor","x":0.25,"y":-1.0,"brush":{"stencil":"circle","radius":3.0,"fill":true,"layer":2},"id":11})",
+          R"({"type":"cursor","hidden":true})",
           R"({"type":"events","from_seq":1,"id":9})",
           R"({"type":"ping","id":10})",
           R"({"type":"ping"})",
@@ -108,6 +110,18 @@ TEST(ClientMessage, SaysWhatIsWrongWithAnEdit) {
             "bad_field: y: is missing");
   EXPECT_EQ(echo(R"({"type":"edit","id":1,"stencil":"circle","fill":true,"x":1e309,"radius":1})"),
             "bad_field: x: the number does not fit into a 64-bit float");
+}
+
+TEST(ClientMessage, BoundsWhereEventsBegin) {
+  const auto events = [](const std::string& from_seq) {
+    return echo(R"({"type":"events","from_seq":)" + from_seq + "}");
+  };
+  EXPECT_EQ(events("1"), R"({"type":"events","from_seq":1})");
+  EXPECT_EQ(events("9007199254740991"), R"({"type":"events","from_seq":9007199254740991})");
+  for (const char* beyond : {"0", "-1", "9007199254740992"})
+    EXPECT_EQ(events(beyond), "out_of_range: from_seq: is outside 1 .. 9007199254740991");
+  EXPECT_EQ(events("1.0"), "bad_field: from_seq: is not an integer");
+  EXPECT_EQ(events("null"), "bad_field: from_seq: is missing");
 }
 
 TEST(View, CountsItsChunks) {

@@ -89,12 +89,25 @@ TEST(Golden, ClientMessages) {
           View{.n = 1, .rect = MapRect{-16, -16, 48, 48}, .have = {}, .id = 3},
           View{.n = 2, .rect = {}, .have = Have{"fedcba9876543210", 258, {0, 0, 64, 64}}, .id = {}},
           EditMessage{4, stamp}, EditMessage{5, stroke}, Undo{6}, Redo{7},
-          Cursor{.at = MapPoint{1, 2}, .brush = {}, .id = {}}, Events{.from_seq = 1, .id = 8},
-          Ping{9}, Leave{10}));
+          Cursor{.at = MapPoint{1, 2}, .brush = {}, .id = {}},
+          Cursor{.at = MapPoint{1, 2}, .brush = Brush{StencilShape::square, 3, false, 1}, .id = 8},
+          Cursor{.at = {}, .brush = {}, .id = {}}, Events{.from_seq = 1, .id = 9}, Ping{10},
+          Leave{11}));
 }
 
 TEST(Golden, ServerMessages) {
   const std::string session = "0123456789abcdef", key = "00112233445566778899aabbccddeeff";
+  const User user{session, "Jö", "#aabbcc", "00112233445566ff"};
+  const Presence presence{.all = true,
+                          .users = {user},
+                          .left = {"00000000000000ff"},
+                          .cursors = {{session, MapPoint{1, 2}, Brush{}}, {session, {}, {}}}};
+  const Edit stamp{.radius = 3, .path = {{10, -2.5}}, .stroke = {}};
+  const Event event{.seq = 259,
+                    .time_ms = 1'700'000'000'123,
+                    .author = user.author,
+                    .edit = stamp,
+                    .hash = "fedcba9876543210"};
   const Failure far{Code::out_of_range, "radius: 600 voxels is beyond the limit of 512", "radius"};
   expect_golden("server.jsonl",
                 lines(Welcome{.session = session, .key = key, .protocol = 1, .id = 1},
@@ -102,9 +115,9 @@ TEST(Golden, ServerMessages) {
                              .settings = {},
                              .epoch = "fedcba9876543210",
                              .seq = 258,
-                             .users = {{session, "Jö", "#aabbcc", session}},
+                             .users = {user},
                              .id = 2},
-                      Applied{4, 259}, Rejected{5, far}, CaughtUp{1, 259}, Done{9},
+                      Applied{4, 259}, Rejected{5, far}, CaughtUp{1, 259}, Done{9}, presence, event,
                       Bye{{Code::shutting_down, "the server ends", ""}, 1000}));
 }
 
