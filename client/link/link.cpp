@@ -20,13 +20,21 @@ Link::Link(EventLoop& loop, LinkOptions options, LinkHandlers handlers)
           {.opened = [this] { greet(); },
            .text = [this](std::string_view text) { take_text(text); },
            .binary = [this](std::span<const std::byte> bytes) { take_binary(bytes); },
-           .closed = [this](SocketEnd how, const std::string& why) { socket_closed(how, why); }}) {}
+           .closed = [this](SocketEnd how, const std::string& why) { socket_closed(how, why); }},
+          {.receive_buffer_bytes = options_.receive_buffer_bytes}) {}
+
+tl::unexpected<Failure> Link::not_ready() const {
+  return protocol::fail(Code::bad_state,
+                        "the connection to " + options_.server.text() + " is not ready");
+}
 
 protocol::Result<void> Link::send(const protocol::ClientMessage& message) {
-  if (phase_ != Phase::ready)
-    return protocol::fail(Code::bad_state,
-                          "the connection to " + options_.server.text() + " is not ready");
-  std::string text = protocol::write(message);
+  if (phase_ != Phase::ready) return not_ready();
+  return send_written(protocol::write(message));
+}
+
+protocol::Result<void> Link::send_written(std::string text) {
+  if (phase_ != Phase::ready) return not_ready();
   if (text.size() > protocol::kMaxControlBytes)
     return protocol::fail(Code::too_large, "a message of " + std::to_string(text.size()) +
                                                " bytes is beyond the limit of " +

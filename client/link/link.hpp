@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "client/link/closing.hpp"
 #include "client/link/event_loop.hpp"
 #include "client/link/server_address.hpp"
 #include "client/link/web_socket.hpp"
@@ -29,18 +30,7 @@ struct LinkOptions {
   ServerAddress server;
   protocol::Hello hello;
   std::string map;  ///< Joined after the welcome. Empty: no join, and the link is ready then.
-};
-
-enum class CloseCause {
-  asked,        ///< By `Link::close`.
-  unreachable,  ///< No connection, or what answered does not speak the protocol.
-  refused,      ///< The server refused the hello or the join.
-  lost,         ///< The connection broke, the server said bye, or sent what is no message.
-};
-
-struct Closing {
-  CloseCause cause = CloseCause::asked;
-  protocol::Failure failure;  ///< For people, naming the server; empty when asked.
+  std::optional<int> receive_buffer_bytes = std::nullopt;  ///< As of SocketOptions.
 };
 
 /// Each may be empty. They are called on the loop's thread, never from within a call to the link,
@@ -70,8 +60,13 @@ class Link {
   /// Queues a message. Fails with bad_state before the link is ready and once it closes, with
   /// too_large when the message is longer than kMaxControlBytes or the queue is full.
   [[nodiscard]] protocol::Result<void> send(const protocol::ClientMessage& message);
+  /// The same for a message that was written already.
+  [[nodiscard]] protocol::Result<void> send_written(std::string text);
   /// More should be sent only later: replies tell when.
   [[nodiscard]] bool congested() const { return socket_.queued_bytes() > kQueueHighWaterBytes; }
+  /// While it is paused nothing is handed on, and the server can send no more than the buffers
+  /// take. A link that was paused once does not notice silence by itself any more.
+  void pause_reading(bool paused) { socket_.pause_reading(paused); }
   /// Sends what is queued, says goodbye and calls `closed`; nothing that arrives from now on is
   /// handed on.
   void close();
@@ -79,6 +74,7 @@ class Link {
  private:
   enum class Phase { connecting, greeting, joining, ready, closing };
 
+  [[nodiscard]] tl::unexpected<protocol::Failure> not_ready() const;
   void greet();
   void take_text(std::string_view text);
   void take_binary(std::span<const std::byte> bytes);

@@ -14,6 +14,7 @@
 #include <boost/beast/websocket.hpp>
 #include <deque>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "protocol/limits.hpp"
@@ -37,11 +38,13 @@ struct Outgoing {
   bool text = true;
 };
 
-websocket::stream_base::timeout timeouts() {
+enum class Idle { ends, bears };
+
+websocket::stream_base::timeout timeouts(Idle idle) {
   websocket::stream_base::timeout out{};
   out.handshake_timeout = kOpenTimeout;
-  out.idle_timeout = kIdleTimeout;
-  out.keep_alive_pings = true;
+  out.idle_timeout = idle == Idle::ends ? kIdleTimeout : websocket::stream_base::none();
+  out.keep_alive_pings = idle == Idle::ends;
   return out;
 }
 
@@ -51,12 +54,15 @@ websocket::stream_base::timeout timeouts() {
 // closes it, which ends the other.
 class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(asio::io_context& context, ServerAddress server, SocketHandlers handlers)
+  Connection(asio::io_context& context, ServerAddress server, SocketHandlers handlers,
+             SocketOptions options)
       : server_(std::move(server)),
+        options_(options),
         handlers_(std::move(handlers)),
         resolver_(context),
         socket_(std::in_place, context),
-        wake_(context, asio::steady_timer::time_point::max()) {}
+        wake_(context, asio::steady_timer::time_point::max()),
+        resume_(context, asio::steady_timer::time_point::max()) {}
 
   void start() { asio::co_spawn(wake_.get_executor(), live(shared_from_this()), asio::detached); }
 
@@ -74,7 +80,15 @@ class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
     handlers_.text = nullptr;
     handlers_.binary = nullptr;
     wake_.cancel();
+    resume_.cancel();
     if (!open_) cut();
+  }
+
+  void pause_reading(bool paused) {
+    paused_ = paused;
+    // Silence is then its own doing, or of a peer that is waiting for it.
+    if (socket_ && open_) socket_->set_option(timeouts(Idle::bears));
+    resume_.cancel();
   }
 
   void abandon() {
@@ -103,7 +117,7 @@ class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
     if (ended_) co_return;
 
     tcp.expires_after(kOpenTimeout);
-    const auto [unconnected, endpoint] = co_await tcp.async_connect(found, kAwait);
+    const error_code unconnected = co_await connect_to_one_of(found);
     if (unconnected) co_return end(SocketEnd::unreachable, unconnected.message());
     error_code ignored;
     tcp.socket().set_option(asio::ip::tcp::no_delay(true), ignored);
@@ -111,8 +125,26 @@ class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
     co_await shake_hands();
   }
 
+  // The first that answers; the error is that of the last. A receive buffer has to be known before
+  // the connection is made: the window is agreed then.
+  asio::awaitable<error_code> connect_to_one_of(asio::ip::tcp::resolver::results_type found) {
+    auto& tcp = beast::get_lowest_layer(*socket_);
+    error_code error = asio::error::host_not_found;
+    for (const auto& entry : found) {
+      error_code ignored;
+      tcp.socket().close(ignored);
+      tcp.socket().open(entry.endpoint().protocol(), ignored);
+      if (options_.receive_buffer_bytes)
+        tcp.socket().set_option(
+            asio::socket_base::receive_buffer_size(*options_.receive_buffer_bytes), ignored);
+      std::tie(error) = co_await tcp.async_connect(entry.endpoint(), kAwait);
+      if (!error || ended_ || error == beast::error::timeout) break;
+    }
+    co_return error;
+  }
+
   asio::awaitable<void> shake_hands() {
-    socket_->set_option(timeouts());
+    socket_->set_option(timeouts(paused_ ? Idle::bears : Idle::ends));
     socket_->set_option(websocket::stream_base::decorator([](websocket::request_type& request) {
       request.set(beast::http::field::sec_websocket_protocol, kSubprotocol);
     }));
@@ -138,6 +170,7 @@ class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
         end_reading(error);
         break;
       }
+      while (paused_ && !closing_ && !ended_) co_await resume_.async_wait(kAwait);
       hand_on(buffer.data());
       buffer.consume(buffer.size());
     }
@@ -202,6 +235,7 @@ class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
     resolver_.cancel();
     if (socket_) beast::get_lowest_layer(*socket_).close();
     wake_.cancel();
+    resume_.cancel();
   }
 
   void finish() {
@@ -220,19 +254,23 @@ class WebSocket::Connection : public std::enable_shared_from_this<Connection> {
   }
 
   const ServerAddress server_;
+  const SocketOptions options_;
   SocketHandlers handlers_;
   asio::ip::tcp::resolver resolver_;
   std::optional<websocket::stream<beast::tcp_stream>> socket_;  // until it has ended
-  asio::steady_timer wake_;  // never expires; cancelled when the writer has something to do
+  asio::steady_timer wake_;    // never expires; cancelled when the writer has something to do
+  asio::steady_timer resume_;  // likewise, when the reader may go on
   std::deque<Outgoing> queue_;
   std::size_t queued_bytes_ = 0;
-  bool open_ = false, closing_ = false, ended_ = false;
+  bool open_ = false, closing_ = false, ended_ = false, paused_ = false;
   SocketEnd how_ = SocketEnd::closed;
   std::string why_;
 };
 
-WebSocket::WebSocket(EventLoop& loop, const ServerAddress& server, SocketHandlers handlers)
-    : connection_(std::make_shared<Connection>(loop.context(), server, std::move(handlers))) {
+WebSocket::WebSocket(EventLoop& loop, const ServerAddress& server, SocketHandlers handlers,
+                     SocketOptions options)
+    : connection_(
+          std::make_shared<Connection>(loop.context(), server, std::move(handlers), options)) {
   connection_->start();
 }
 
@@ -247,6 +285,8 @@ void WebSocket::write_binary(std::string message) {
 }
 
 std::size_t WebSocket::queued_bytes() const { return connection_->queued_bytes(); }
+
+void WebSocket::pause_reading(bool paused) { connection_->pause_reading(paused); }
 
 void WebSocket::close() { connection_->close(); }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,12 +38,18 @@ struct SocketHandlers {
   std::function<void(SocketEnd end, const std::string& why)> closed;
 };
 
+struct SocketOptions {
+  /// Of the system's buffer for what arrived and was not read; the system has a least of its own.
+  std::optional<int> receive_buffer_bytes = std::nullopt;
+};
+
 /// All on the loop's thread.
 class WebSocket {
  public:
   /// Starts to connect to /ws with the subprotocol earthwork.v1; everything further happens while
   /// the loop runs.
-  WebSocket(EventLoop& loop, const ServerAddress& server, SocketHandlers handlers);
+  WebSocket(EventLoop& loop, const ServerAddress& server, SocketHandlers handlers,
+            SocketOptions options = {});
   WebSocket(const WebSocket&) = delete;
   WebSocket& operator=(const WebSocket&) = delete;
   /// Cuts the connection without a word; no handler is called any more.
@@ -54,6 +61,9 @@ class WebSocket {
   void write_binary(std::string message);
   /// Of messages that are not yet on their way.
   [[nodiscard]] std::size_t queued_bytes() const;
+  /// While it is paused, no handler is told of a message, and the peer can send no more than the
+  /// buffers take. A socket that was paused once does not notice silence by itself any more.
+  void pause_reading(bool paused);
   /// Writes what is queued and closes; nothing that arrives from now on is handed on.
   void close();
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace {
 
 /// Runs a socket until it has closed, and keeps what it received.
 struct Client {
-  explicit Client(const ServerAddress& server, std::function<void(Client&)> opened = {})
+  explicit Client(const ServerAddress& server, std::function<void(Client&)> opened = {},
+                  SocketOptions options = {})
       : then(std::move(opened)),
         socket(loop, server,
                {.opened =
@@ -32,7 +34,8 @@ struct Client {
                     [this](SocketEnd how, const std::string& reason) {
                       end = how;
                       why = reason;
-                    }}) {
+                    }},
+               options) {
     loop.run();
   }
   void take(std::string message) {
@@ -72,6 +75,56 @@ TEST(WebSocket, CarriesTextAndBinaryBothWaysInOrder) {
             (std::vector<std::string>{"one", std::string("binary \0\1\2", 10), "three"}));
   EXPECT_EQ(client.end, SocketEnd::closed);
   EXPECT_EQ(client.why, "");
+}
+
+TEST(WebSocket, HandsNothingOnWhileItIsPaused) {
+  constexpr std::size_t kMessages = 2000;
+  const std::string message(16 * 1024, 'x');  // all together more than the buffers take
+  std::atomic<std::size_t> written = 0;
+  const FakeServer server("earthwork.v1", [&](Peer& peer) {
+    for (; written < kMessages; ++written) peer.write_binary(message);
+    peer.read();
+  });
+  std::size_t written_early = 0, received_early = 1;
+  std::optional<Timer> timer;
+  const Client client(server.address(), [&](Client& c) {
+    c.close_after = kMessages;
+    c.socket.pause_reading(true);
+    timer.emplace(c.loop);
+    timer->start(std::chrono::milliseconds(100), [&] {
+      written_early = written;
+      received_early = c.received.size();
+      c.socket.pause_reading(false);
+    });
+  });
+  EXPECT_EQ(received_early, 0u);
+  EXPECT_LT(written_early, kMessages);
+  EXPECT_EQ(client.received.size(), kMessages);
+  EXPECT_EQ(client.end, SocketEnd::closed);
+}
+
+TEST(WebSocket, ClosesWhileItIsPaused) {
+  const FakeServer server("earthwork.v1", [](Peer& peer) {
+    peer.write("unheard");
+    EXPECT_EQ(peer.read(), "closed 1000");
+  });
+  const Client client(server.address(), [](Client& c) {
+    c.socket.pause_reading(true);
+    c.socket.close();
+  });
+  EXPECT_TRUE(client.received.empty());
+  EXPECT_EQ(client.end, SocketEnd::closed);
+}
+
+TEST(WebSocket, ReadsThroughASmallBuffer) {
+  const FakeServer server("earthwork.v1", echo);
+  const Client client(server.address(),
+                      [](Client& c) {
+                        c.close_after = 4;
+                        for (int i = 0; i < 4; ++i) c.socket.write_binary(std::string(16'000, 'y'));
+                      },
+                      {.receive_buffer_bytes = 4096});
+  EXPECT_EQ(client.received, std::vector<std::string>(4, "binary " + std::string(16'000, 'y')));
 }
 
 TEST(WebSocket, WritesWhatIsQueuedBeforeItCloses) {
