@@ -37,22 +37,31 @@ std::string sections(const ChunkMesh& mesh) {
 
 }  // namespace
 
-std::string NormalForm::text(std::string_view message) {
+std::optional<std::string> NormalForm::text(std::string_view message) {
   auto json = ordered_json::parse(message, nullptr, false);
   if (json.is_discarded()) return "not JSON: " + std::string(message);
+  if (!show_presence && json.is_object() && json.value("type", "") == "presence")
+    return std::nullopt;
   walk(json);
   return json.dump();
 }
 
 void NormalForm::walk(ordered_json& json) {
-  for (auto& [key, value] : json.items()) {
-    if (key == "limits" && !show_limits)
-      value = "$limits";
-    else if (value.is_string() && (key == "session" || key == "key" || key == "epoch"))
-      value = name_of(key, value.get<std::string>());
-    else if (value.is_structured())
-      walk(value);
-  }
+  for (auto& [key, value] : json.items()) replace(key, value);
+}
+
+void NormalForm::replace(const std::string& key, ordered_json& value) {
+  if (key == "limits" && !show_limits)
+    value = "$limits";
+  else if (key == "time")
+    value = "$time";
+  else if (key == "left" && value.is_array())
+    for (auto& session : value) replace("session", session);
+  else if (value.is_string() &&
+           (key == "session" || key == "key" || key == "author" || key == "epoch"))
+    value = name_of(key, value.get<std::string>());
+  else if (value.is_structured())
+    walk(value);
 }
 
 const std::string& NormalForm::name_of(const std::string& kind, const std::string& value) {

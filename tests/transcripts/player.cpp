@@ -33,7 +33,10 @@ class Client {
         normal_(normal),
         socket_(loop, server,
                 {.opened = {},
-                 .text = [this](std::string_view text) { put(normal_.text(text)); },
+                 .text =
+                     [this](std::string_view text) {
+                       if (auto line = normal_.text(text)) put(std::move(*line));
+                     },
                  .binary = [this](std::span<const std::byte> bytes) { take(bytes); },
                  .closed =
                      [this](link::SocketEnd end, const std::string& why) {
@@ -150,6 +153,8 @@ class Player {
       normal_.show_limits = true;
     else if (what == "meshes")
       normal_.show_meshes = true;
+    else if (what == "presence")
+      normal_.show_presence = true;
     else
       throw std::runtime_error("cannot show " + what);
   }

@@ -10,13 +10,15 @@
 //     stop                                 the server is asked to end
 //     show meshes                          from here on, records are written out whole
 //     show limits                          from here on, the limits in a welcome are too
+//     show presence                        from here on, who is there and points where
 //
 // A client is an upper-case letter and connects when it first says something. What a client
-// receives is normalised: a session, a key or an epoch becomes $session1, $key1, $epoch1, numbered
-// as they appear, and can be sent by these names. Messages that follow each other without an answer
-// between them are sent in one breath; when a transcript is rewritten, `A< ?` keeps them apart. In
-// what is sent, $spaces(N) stands for N spaces, $path(N) for an array of N points, and $nest(N) for
-// N arrays one in the other.
+// receives is normalised: a session, a key, an author or an epoch becomes $session1, $key1,
+// $author1, $epoch1, numbered as they appear, and can be sent by these names; a time is $time.
+// Presence comes on a timer, so a transcript that does not show it has none. Messages that follow
+// each other without an answer between them are sent in one breath; when a transcript is rewritten,
+// `A< ?` keeps them apart. In what is sent, $spaces(N) stands for N spaces, $path(N) for an array
+// of N points, and $nest(N) for N arrays one in the other.
 #pragma once
 
 #include <string>
