@@ -54,11 +54,16 @@ std::string encode(const GroupEnd& end) {
   return message;
 }
 
+std::string_view records_head() {
+  static constexpr char kHead[kHeadBytes] = {static_cast<char>(kFrameVersion), kRecords};
+  return {kHead, kHeadBytes};
+}
+
 RecordPacker::RecordPacker(std::function<void(std::string)> emit) : emit_(std::move(emit)) {}
 
 void RecordPacker::add(std::string_view record) {
   while (!record.empty()) {
-    if (message_.empty()) message_ = {static_cast<char>(kFrameVersion), kRecords};
+    if (message_.empty()) message_ = records_head();
     const std::size_t piece = std::min(record.size(), kMaxFrameBytes - message_.size());
     message_ += record.substr(0, piece);
     record.remove_prefix(piece);

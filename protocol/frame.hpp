@@ -29,6 +29,8 @@ struct GroupEnd {
 
 [[nodiscard]] std::string encode(const GroupBegin& begin);
 [[nodiscard]] std::string encode(const GroupEnd& end);
+/// What a message of records begins with; the next piece of the record stream follows.
+[[nodiscard]] std::string_view records_head();
 
 /// Packs encoded records (`encode_record`) into messages of at most kMaxFrameBytes: many small
 /// ones into one message, one large one across several.

@@ -41,7 +41,7 @@ void Conversation::refuse_binary() {
 bool Conversation::may_read() const {
   const bool between = place_ == Place::entering || place_ == Place::leaving;
   // What a room that was left had already sent must be through before the next one sends.
-  const bool stranded = place_ == Place::outside && outbox_.has_parcel();
+  const bool stranded = place_ == Place::outside && (outbox_.has_parcel() || outbox_.has_talk());
   return !between && !stranded && unanswered_ < kMaxUnanswered &&
          outbox_.control_bytes() < kMaxControlWaiting;
 }
@@ -73,7 +73,7 @@ void Conversation::handle(protocol::Join& join) {
   if (!room) return reject(join.id, {Code::unknown_map, "map: there is no " + join.map, "map"});
 
   place_ = Place::entering;
-  run_in(room, [self = shared_from_this(), room, user = user_, id = join.id] {
+  run_in(room, [self = shared_from_this(), room, user = user_, id = join.id](room::Room&) {
     auto entrance = room->join(self, user);
     self->own_->post(
         [self, room, entrance = std::move(entrance), id] { self->entered(room, entrance, id); });
@@ -114,21 +114,63 @@ void Conversation::handle(const protocol::Leave& leave) {
 void Conversation::handle(protocol::View& view) {
   if (place_ != Place::inside)
     return reject(view.id, {Code::bad_state, "join a map first", "type"});
-  ++unanswered_;
-  in_room([self = shared_from_this(), view](room::Room& room, room::ViewerId viewer) {
-    self->own_->post([self, id = view.id, result = room.look(viewer, view)] {
-      self->answered(id, result);
-      if (result) self->done(id);
-    });
+  const auto id = view.id;
+  ask_room(id, [view = std::move(view)](room::Room& room, room::ViewerId viewer) {
+    return room.look(viewer, view);
   });
+}
+
+void Conversation::handle(const protocol::Events& events) {
+  if (place_ != Place::inside)
+    return reject(events.id, {Code::bad_state, "join a map first", "type"});
+  ask_room(events.id, [seq = events.from_seq](room::Room& room, room::ViewerId viewer) {
+    return room.follow(viewer, seq);
+  });
+}
+
+/// Of cursors without an id only the latest one waits while another is on its way to the room. One
+/// with an id owes a reply and is sent on, so it is bounded as all that owe one.
+void Conversation::handle(protocol::Cursor& cursor) {
+  if (place_ != Place::inside)
+    return reject(cursor.id, {Code::bad_state, "join a map first", "type"});
+  next_cursor_.reset();
+  if (cursor.id) {
+    ++unanswered_;
+    point(std::move(cursor));
+  } else if (cursors_on_their_way_ == 0) {
+    point(std::move(cursor));
+  } else {
+    next_cursor_ = std::move(cursor);
+  }
+}
+
+void Conversation::point(protocol::Cursor cursor) {
+  ++cursors_on_their_way_;
+  in_room([self = shared_from_this(), cursor = std::move(cursor)](room::Room& room,
+                                                                  room::ViewerId viewer) {
+    self->own_->post(
+        [self, id = cursor.id, result = room.point(viewer, cursor)] { self->pointed(id, result); });
+  });
+}
+
+void Conversation::pointed(std::optional<MessageId> id, const protocol::Result<void>& result) {
+  --cursors_on_their_way_;
+  if (id)
+    answered(id, result);
+  else if (!result)
+    reject(id, result.error());
+  if (place_ != Place::inside) next_cursor_.reset();
+  if (cursors_on_their_way_ == 0 && next_cursor_) point(*std::exchange(next_cursor_, std::nullopt));
 }
 
 void Conversation::handle(protocol::EditMessage& edit) {
   if (place_ != Place::inside)
     return reject(edit.id, {Code::bad_state, "join a map first", "type"});
   ++unanswered_;
-  room::Room::Command command{.id = edit.id, .author = author_, .edit = std::move(edit.edit)};
-  in_room([self = shared_from_this(), command](room::Room& room, room::ViewerId viewer) mutable {
+  in_room([self = shared_from_this(),
+           command =
+               room::Room::Command{.id = edit.id, .author = author_, .edit = std::move(edit.edit)}](
+              room::Room& room, room::ViewerId viewer) mutable {
     const MessageId id = command.id;
     auto result = room.submit(viewer, std::move(command));
     if (!result) self->own_->post([self, id, result] { self->answered(id, result); });
@@ -137,33 +179,68 @@ void Conversation::handle(protocol::EditMessage& edit) {
 
 void Conversation::answered(std::optional<MessageId> id, const protocol::Result<void>& result) {
   --unanswered_;
-  if (!result) reject(id, result.error());
-  wake_();
+  if (result)
+    done(id);
+  else
+    reject(id, result.error());
 }
 
 void Conversation::handle(const protocol::Ping& ping) { done(ping.id); }
 
-void Conversation::in_room(std::function<void(room::Room&, room::ViewerId)> task) {
-  run_in(room_, [room = room_, viewer = viewer_, run = std::move(task)] { run(*room, viewer); });
-}
-
-// A task that fails has lost a reply: then the session ends, so that its client need not wait.
-void Conversation::run_in(const std::shared_ptr<room::Room>& room, std::function<void()> task) {
-  room->strand().post([self = shared_from_this(), run = std::move(task)] {
-    try {
-      run();
-    } catch (...) {
-      self->own_->post([self] {
-        self->say_bye({Code::internal, "the server made a mistake", {}});
-      });
-      throw;
-    }
+template <class Ask>
+void Conversation::ask_room(std::optional<MessageId> id, Ask ask) {
+  ++unanswered_;
+  in_room([self = shared_from_this(), id, ask = std::move(ask)](room::Room& room,
+                                                                room::ViewerId viewer) {
+    self->own_->post([self, id, result = ask(room, viewer)] { self->answered(id, result); });
   });
 }
 
-void Conversation::sent(const OutgoingMessage& message) {
-  if (message.ends_parcel && place_ == Place::inside)
-    in_room([](room::Room& room, room::ViewerId viewer) { room.ready(viewer); });
+template <class Task>
+void Conversation::in_room(Task task) {
+  run_in(room_, [viewer = viewer_, run = std::move(task)](room::Room& room) mutable {
+    run(room, viewer);
+  });
+}
+
+// A task that fails has lost a reply: then the session ends, so that its client need not wait.
+template <class Task>
+void Conversation::run_in(std::shared_ptr<room::Room> room, Task task) {
+  room::Room& there = *room;
+  there.strand().post(
+      [self = shared_from_this(), room = std::move(room), run = std::move(task)]() mutable {
+        try {
+          run(*room);
+        } catch (...) {
+          self->own_->post([self] {
+            self->say_bye({Code::internal, "the server made a mistake", {}});
+          });
+          throw;
+        }
+      });
+}
+
+void Conversation::take_output(std::string& out, std::size_t enough) {
+  OutboxCounts counts;
+  outbox_.take(out, enough, counts);
+  room::Meters& meters = atlas_.meters();
+  if (counts.frames > 0) {
+    meters.frames.fetch_add(counts.frames, std::memory_order_relaxed);
+    meters.frame_bytes.fetch_add(counts.frame_bytes, std::memory_order_relaxed);
+  }
+  if (counts.controls > 0) {
+    meters.controls.fetch_add(counts.controls, std::memory_order_relaxed);
+    meters.control_bytes.fetch_add(counts.control_bytes, std::memory_order_relaxed);
+  }
+}
+
+void Conversation::written() {
+  const Outbox::Through through = outbox_.written();
+  if (place_ != Place::inside || !(through.parcel || through.talk)) return;
+  in_room([through](room::Room& room, room::ViewerId viewer) {
+    if (through.parcel) room.ready(viewer);
+    if (through.talk) room.heard(viewer);
+  });
 }
 
 void Conversation::say(const protocol::ServerMessage& message) {
@@ -179,7 +256,12 @@ void Conversation::done(std::optional<MessageId> id) {
 }
 
 void Conversation::reject(std::optional<MessageId> id, Failure why) {
+  count(why);
   say(protocol::Rejected{.id = id, .failure = std::move(why)});
+}
+
+void Conversation::count(const Failure& refused) {
+  ++atlas_.meters().rejected[static_cast<std::size_t>(refused.code)];
 }
 
 void Conversation::refuse_unsupported(std::optional<MessageId> id, const char* what) {
@@ -207,8 +289,11 @@ void Conversation::abandon() {
 void Conversation::answered(std::vector<room::Reply> replies) {
   own_->post([self = shared_from_this(), told = std::move(replies)] {
     self->unanswered_ -= static_cast<int>(told.size());
-    for (const room::Reply& reply : told)
+    for (const room::Reply& reply : told) {
+      if (const auto* refused = std::get_if<protocol::Rejected>(&reply))
+        self->count(refused->failure);
       std::visit([&](const auto& message) { self->outbox_.say(message); }, reply);
+    }
     self->wake_();
   });
 }
@@ -220,7 +305,12 @@ void Conversation::deliver(room::Parcel parcel) {
   });
 }
 
-void Conversation::tell(room::Talk) {}
+void Conversation::tell(room::Talk talk) {
+  own_->post([self = shared_from_this(), talk = std::move(talk)]() mutable {
+    self->outbox_.put(std::move(talk));
+    self->wake_();
+  });
+}
 
 void Conversation::end(protocol::Bye bye) {
   own_->post([self = shared_from_this(), why = std::move(bye.failure)] { self->say_bye(why); });

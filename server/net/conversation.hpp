@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,13 +38,14 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   [[nodiscard]] bool may_read() const;
   [[nodiscard]] bool greeted() const { return !user_.session.empty(); }
 
-  [[nodiscard]] std::optional<OutgoingMessage> next_message() { return outbox_.next(); }
-  /// A message from `next_message` was written.
-  void sent(const OutgoingMessage& message);
+  /// Appends what is to be written next, as `Outbox::take` does, and counts it in the meters.
+  void take_output(std::string& out, std::size_t enough);
+  /// All that was taken is written.
+  void written();
 
   /// Says why, and ends.
   void say_bye(protocol::Failure why);
-  /// Nothing more will be said.
+  /// Nothing more will be said: bye was taken.
   [[nodiscard]] bool ended() const { return outbox_.ended(); }
   /// Bye was said, or is about to be.
   [[nodiscard]] bool ending() const { return ending_; }
@@ -66,19 +68,29 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void handle(const protocol::Ping& ping);
   void handle(const protocol::Undo& undo) { refuse_unsupported(undo.id, "undo"); }
   void handle(const protocol::Redo& redo) { refuse_unsupported(redo.id, "redo"); }
-  void handle(const protocol::Cursor& cursor) { refuse_unsupported(cursor.id, "cursor"); }
-  void handle(const protocol::Events& events) { refuse_unsupported(events.id, "events"); }
+  void handle(protocol::Cursor& cursor);
+  void handle(const protocol::Events& events);
 
   void say(const protocol::ServerMessage& message);
   void done(std::optional<protocol::MessageId> id);
   void reject(std::optional<protocol::MessageId> id, protocol::Failure why);
+  void count(const protocol::Failure& refused);
   void refuse_unsupported(std::optional<protocol::MessageId> id, const char* what);
   void entered(const std::shared_ptr<room::Room>& room,
                protocol::Result<room::Room::Entrance> entrance,
                std::optional<protocol::MessageId> id);
+  /// What the room made of a message that it answers at once.
   void answered(std::optional<protocol::MessageId> id, const protocol::Result<void>& result);
-  void in_room(std::function<void(room::Room&, room::ViewerId)> task);
-  void run_in(const std::shared_ptr<room::Room>& room, std::function<void()> task);
+  void point(protocol::Cursor cursor);
+  void pointed(std::optional<protocol::MessageId> id, const protocol::Result<void>& result);
+  /// `ask(room, viewer)` on the room's strand; its result is the answer to the message with `id`.
+  template <class Ask>
+  void ask_room(std::optional<protocol::MessageId> id, Ask ask);
+  /// `task(room, viewer)` on the room's strand.
+  template <class Task>
+  void in_room(Task task);
+  template <class Task>
+  void run_in(std::shared_ptr<room::Room> room, Task task);
 
   room::Atlas& atlas_;
   const std::unique_ptr<room::Strand> own_;
@@ -90,6 +102,8 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   std::shared_ptr<room::Room> room_;  // while inside or leaving
   room::ViewerId viewer_ = 0;
   int unanswered_ = 0;
+  int cursors_on_their_way_ = 0;
+  std::optional<protocol::Cursor> next_cursor_;  // the latest one without an id
   bool ending_ = false, abandoned_ = false;
 };
 

@@ -4,88 +4,73 @@
 #include <utility>
 
 namespace earthwork::net {
+namespace {
 
-ParcelMessages::ParcelMessages(room::Parcel parcel)
-    : parcel_(std::move(parcel)), packer_([this](std::string message) {
-        made_.push_back({.kind = Kind::binary, .bytes = std::move(message)});
-      }) {}
+// More than that is given back when it is empty: most sessions say little, and rarely.
+constexpr std::size_t kKeptBytes = 512;
 
-std::optional<OutgoingMessage> ParcelMessages::next() {
-  // One message ahead, to know which one is the last.
-  while (made_.size() < 2 && stage_ != Stage::done) advance();
-  if (made_.empty()) return std::nullopt;
-  OutgoingMessage message = std::move(made_.front());
-  made_.pop_front();
-  message.ends_parcel = made_.empty() && stage_ == Stage::done;
-  return message;
-}
-
-void ParcelMessages::advance() {
-  switch (stage_) {
-    case Stage::begin:
-      if (parcel_.group)
-        made_.push_back({.kind = Kind::binary, .bytes = protocol::encode(*parcel_.group)});
-      stage_ = Stage::group;
-      return;
-    case Stage::group:
-      add_records(parcel_.group_records, Stage::first_seen);
-      if (stage_ == Stage::first_seen && parcel_.group)
-        made_.push_back({.kind = Kind::binary,
-                         .bytes = protocol::encode(protocol::GroupEnd{parcel_.group->seq})});
-      return;
-    case Stage::first_seen:
-      add_records(parcel_.first_seen, Stage::caught_up);
-      return;
-    case Stage::caught_up:
-      if (parcel_.caught_up)
-        made_.push_back({.kind = Kind::text, .bytes = protocol::write(*parcel_.caught_up)});
-      stage_ = Stage::done;
-      return;
-    case Stage::done:
-      return;
-  }
-}
-
-void ParcelMessages::add_records(std::vector<room::RecordBytes>& records, Stage after) {
-  if (next_record_ < records.size()) {
-    const room::RecordBytes record = std::exchange(records[next_record_++], nullptr);
-    packer_.add(*record);
-    return;
-  }
-  packer_.finish();
-  next_record_ = 0;
-  stage_ = after;
-}
+}  // namespace
 
 void Outbox::say(const protocol::ServerMessage& message) {
   if (ending_) return;
-  control_.push_back(protocol::write(message));
-  control_bytes_ += control_.back().size();
+  append_counted(control_, control_counts_, Kind::text, protocol::write(message));
 }
 
 void Outbox::put(room::Parcel parcel) {
   if (ending_) return;
-  assert(!parcel_);
+  assert(!has_parcel());
   parcel_.emplace(std::move(parcel));
 }
 
+void Outbox::put(room::Talk talk) {
+  if (ending_) return;
+  assert(!has_talk());
+  talk_ = std::move(talk);
+  next_talk_ = 0;
+  talk_taken_ = talk_.messages.empty();
+}
+
 void Outbox::end(const protocol::Bye& bye) {
+  if (ending_) return;
   say(bye);
   ending_ = true;
   parcel_.reset();
+  talk_ = {};
 }
 
-std::optional<OutgoingMessage> Outbox::next() {
-  if (!control_.empty()) {
-    OutgoingMessage message{.kind = Kind::text, .bytes = std::move(control_.front())};
-    control_.pop_front();
-    control_bytes_ -= message.bytes.size();
-    return message;
+void Outbox::take(std::string& out, std::size_t enough, OutboxCounts& counts) {
+  while (out.size() < enough && take_next(out, counts)) {
   }
-  if (!parcel_) return std::nullopt;
-  auto message = parcel_->next();
-  if (!message || message->ends_parcel) parcel_.reset();
-  return message;
+}
+
+bool Outbox::take_next(std::string& out, OutboxCounts& counts) {
+  if (!control_.empty()) {
+    take_control(out, counts);
+  } else if (!talk_.messages.empty()) {
+    append_counted(out, counts, Kind::text, *talk_.messages[next_talk_++]);
+    if (next_talk_ < talk_.messages.size()) return true;
+    talk_ = {};
+    talk_taken_ = true;
+  } else if (parcel_) {
+    if (!parcel_->through()) parcel_->append_next(out, counts);
+    if (!parcel_->through()) return true;
+    parcel_.reset();
+    parcel_taken_ = true;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void Outbox::take_control(std::string& out, OutboxCounts& counts) {
+  out += control_;
+  counts.add(std::exchange(control_counts_, {}));
+  control_.clear();
+  if (control_.capacity() > kKeptBytes) control_.shrink_to_fit();
+}
+
+Outbox::Through Outbox::written() {
+  return {.parcel = std::exchange(parcel_taken_, false), .talk = std::exchange(talk_taken_, false)};
 }
 
 }  // namespace earthwork::net

@@ -1,48 +1,17 @@
-/// What a session still has to write: control messages first, then one parcel of meshes, made
-/// into messages only as the socket takes them.
+/// What a session still has to write: control messages first, then what is told of people and
+/// events, then one parcel of meshes, made into messages only as the socket takes them.
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
 
-#include "protocol/frame.hpp"
 #include "protocol/messages.hpp"
+#include "server/net/outbox_counts.hpp"
+#include "server/net/parcel_messages.hpp"
 #include "server/room/viewer.hpp"
 
 namespace earthwork::net {
-
-enum class Kind { text, binary };
-
-struct OutgoingMessage {
-  Kind kind = Kind::text;
-  std::string bytes;
-  bool ends_parcel = false;  ///< With it, the parcel is through.
-};
-
-/// A parcel as messages, one after the other. Holds one chunk record in messages at a time; the
-/// others are shared with their room.
-class ParcelMessages {
- public:
-  explicit ParcelMessages(room::Parcel parcel);
-  ParcelMessages(const ParcelMessages&) = delete;
-  ParcelMessages& operator=(const ParcelMessages&) = delete;
-  /// The last one has `ends_parcel`; none comes after it.
-  [[nodiscard]] std::optional<OutgoingMessage> next();
-
- private:
-  enum class Stage { begin, group, first_seen, caught_up, done };
-
-  void advance();
-  void add_records(std::vector<room::RecordBytes>& records, Stage after);
-
-  room::Parcel parcel_;
-  Stage stage_ = Stage::begin;
-  std::size_t next_record_ = 0;
-  std::deque<OutgoingMessage> made_;
-  protocol::RecordPacker packer_;
-};
 
 /// One strand.
 class Outbox {
@@ -50,20 +19,38 @@ class Outbox {
   void say(const protocol::ServerMessage& message);
   /// Only when there is no parcel.
   void put(room::Parcel parcel);
-  /// After what was said so far, this is the last message; parcels are dropped.
+  /// Only when there is no talk.
+  void put(room::Talk talk);
+  /// After what was said so far, this is the last message; parcels and talk are dropped.
   void end(const protocol::Bye& bye);
 
-  /// What to write next; nothing when there is nothing.
-  [[nodiscard]] std::optional<OutgoingMessage> next();
+  /// Appends whole messages, as they go over the socket, until `out` has `enough` bytes or nothing
+  /// waits. The last message may be a long one.
+  void take(std::string& out, std::size_t enough, OutboxCounts& counts);
+  /// All that was taken is written: whoever waits for it may be told.
+  struct Through {
+    bool parcel = false, talk = false;
+  };
+  [[nodiscard]] Through written();
+
   /// `end` was called, and its message was taken.
   [[nodiscard]] bool ended() const { return ending_ && control_.empty(); }
-  [[nodiscard]] bool has_parcel() const { return parcel_.has_value(); }
-  [[nodiscard]] std::size_t control_bytes() const { return control_bytes_; }
+  /// A parcel, or talk, is not written yet.
+  [[nodiscard]] bool has_parcel() const { return parcel_.has_value() || parcel_taken_; }
+  [[nodiscard]] bool has_talk() const { return !talk_.messages.empty() || talk_taken_; }
+  /// That wait to be taken.
+  [[nodiscard]] std::size_t control_bytes() const { return control_.size(); }
 
  private:
-  std::deque<std::string> control_;  // bounded: nothing is read while it is long
-  std::size_t control_bytes_ = 0;
+  [[nodiscard]] bool take_next(std::string& out, OutboxCounts& counts);
+  void take_control(std::string& out, OutboxCounts& counts);
+
+  std::string control_;  // as it goes over the socket; bounded: nothing is read while it is long
+  OutboxCounts control_counts_;
+  room::Talk talk_;
+  std::size_t next_talk_ = 0;
   std::optional<ParcelMessages> parcel_;
+  bool parcel_taken_ = false, talk_taken_ = false;  // and not written yet
   bool ending_ = false;
 };
 

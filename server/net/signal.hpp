@@ -5,11 +5,12 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <utility>
 
 namespace earthwork::net {
 
-/// One strand. The waiter checks its condition before each wait, so a notice without a waiter is
-/// not lost.
+/// One strand, one waiter. It checks its condition before each wait, so a notice without a waiter
+/// is not lost; it costs nothing either.
 class Signal {
  public:
   explicit Signal(const boost::asio::any_io_executor& executor)
@@ -17,12 +18,17 @@ class Signal {
 
   /// Comes back after `notify`, or when the coroutine is cancelled.
   boost::asio::awaitable<void> wait() {
+    waiting_ = true;
     co_await timer_.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
+    waiting_ = false;
   }
-  void notify() { timer_.cancel(); }
+  void notify() {
+    if (std::exchange(waiting_, false)) timer_.cancel();
+  }
 
  private:
   boost::asio::steady_timer timer_;
+  bool waiting_ = false;
 };
 
 }  // namespace earthwork::net

@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <boost/asio/experimental/awaitable_operators.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/rate_policy.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "protocol/limits.hpp"
+#include "server/net/buffered_socket.hpp"
 #include "server/net/conversation.hpp"
 #include "server/net/rate.hpp"
 #include "server/net/signal.hpp"
+#include "server/net/websocket_frame.hpp"
 #include "server/room/asio_strand.hpp"
 
 namespace earthwork::net {
@@ -33,6 +32,9 @@ constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 
 // Small, so that control never waits behind megabytes that the kernel has already taken.
 constexpr int kSendBufferBytes = 64 * 1024, kSendLowWaterBytes = 16 * 1024;
+
+// Messages for one call. Beyond it, what is said later may still go before what waits.
+constexpr std::size_t kEnoughBytes = 32 * 1024;
 
 /// A whole number among TCP's socket options, as Asio takes options.
 struct TcpOption {
@@ -55,40 +57,30 @@ struct TcpOption {
   }
 };
 
-/// A rate policy that limits nothing, but is told of every transfer, parts of messages included.
-class ActivityPolicy {
+// Nothing is compressed, so nothing is kept for it.
+using Stream = websocket::stream<BufferedSocket, false>;
+
+/// Counts a session among those that are open.
+class Presence {
  public:
-  [[nodiscard]] Clock::time_point last_byte() const { return last_byte_; }
-  /// Whether written bytes count; received ones always do.
-  void count_written(bool count) { count_written_ = count; }
+  explicit Presence(room::Meters& meters) : meters_(meters) { ++meters_.sessions; }
+  ~Presence() { --meters_.sessions; }
+  Presence(const Presence&) = delete;
+  Presence& operator=(const Presence&) = delete;
 
  private:
-  friend class beast::rate_policy_access;
-
-  static std::size_t available_read_bytes() { return std::numeric_limits<std::size_t>::max(); }
-  static std::size_t available_write_bytes() { return std::numeric_limits<std::size_t>::max(); }
-  void transfer_read_bytes(std::size_t n) {
-    if (n > 0) last_byte_ = Clock::now();
-  }
-  void transfer_write_bytes(std::size_t n) {
-    if (n > 0 && count_written_) last_byte_ = Clock::now();
-  }
-  static void on_timer() {}
-
-  Clock::time_point last_byte_ = Clock::now();
-  bool count_written_ = true;
+  room::Meters& meters_;
 };
-
-using Stream = beast::basic_stream<asio::ip::tcp, asio::any_io_executor, ActivityPolicy>;
 
 /// Beast ends a session through errors it makes itself; here all ends come from the coroutines.
 class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
  public:
   WebSocketSession(asio::ip::tcp::socket socket, const Service& service)
       : ws_(std::move(socket)),
+        meters_(service.atlas.meters()),
         limits_(service.limits),
         readable_(ws_.get_executor()),
-        writable_(ws_.get_executor()),
+        said_all_(ws_.get_executor()),
         never_(ws_.get_executor()),
         rate_(limits_.messages_per_second, limits_.message_burst, Clock::now()),
         conversation_(std::make_shared<Conversation>(
@@ -107,29 +99,35 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   awaitable<void> converse(std::string handshake);
   void end();
   void set_options();
-  void wake() { readable_.notify(), writable_.notify(); }
+  void wake();
   awaitable<void> read();
   awaitable<bool> read_message();
-  awaitable<void> write();
+  awaitable<void> say_farewell();
   awaitable<void> watch();
+  BufferedSocket& socket() { return ws_.next_layer(); }
+  void flush_soon();
+  void flush();
+  [[nodiscard]] beast::error_code send_more();
+  void wait_writable();
   void check_time(Clock::time_point now);
   void ping();
-  void close_socket();
   awaitable<void> sleep(std::chrono::nanoseconds time);
 
-  websocket::stream<Stream> ws_;
+  Stream ws_;
+  room::Meters& meters_;
   const SessionLimits limits_;
-  Signal readable_, writable_, never_;
+  Signal readable_, said_all_, never_;
   Rate rate_;
   beast::flat_buffer buffer_;
   const std::shared_ptr<Conversation> conversation_;
   Clock::time_point opened_ = Clock::now();
   Clock::time_point bye_at_ = Clock::time_point::max();
-  bool writing_ = false, pinging_ = false;
+  bool flushing_soon_ = false;
+  bool stuck_ = false;  // until the socket takes more
 };
 
 void WebSocketSession::set_options() {
-  auto& socket = beast::get_lowest_layer(ws_).socket();
+  auto& socket = this->socket().socket();
   beast::error_code ignored;
   socket.set_option(asio::ip::tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::send_buffer_size(kSendBufferBytes), ignored);
@@ -145,7 +143,7 @@ void WebSocketSession::set_options() {
     response.set(beast::http::field::sec_websocket_protocol, kSubprotocol);
   }));
   ws_.read_message_max(0);  // read_message has its own limit, with a better answer
-  ws_.auto_fragment(false);
+  this->socket().on_output([this] { flush_soon(); });
 }
 
 awaitable<void> WebSocketSession::run(std::string handshake) {
@@ -160,7 +158,7 @@ awaitable<void> WebSocketSession::run(std::string handshake) {
 
 /// The conversation may outlive the session in its room, and must not wake it then.
 void WebSocketSession::end() {
-  close_socket();
+  socket().close();
   conversation_->abandon();
 }
 
@@ -168,10 +166,10 @@ awaitable<void> WebSocketSession::converse(std::string handshake) {
   using namespace asio::experimental::awaitable_operators;
   set_options();
   const auto [error] = co_await ws_.async_accept(asio::buffer(handshake), kAwait);
-  if (!error) {
-    opened_ = Clock::now();
-    co_await (read() || write() || watch());
-  }
+  if (error) co_return;
+  const Presence presence(meters_);
+  opened_ = Clock::now();
+  co_await (read() || say_farewell() || watch());
 }
 
 awaitable<void> WebSocketSession::read() {
@@ -191,7 +189,7 @@ awaitable<void> WebSocketSession::read() {
     }
     buffer_.consume(buffer_.size());
   }
-  close_socket();
+  socket().close();
 }
 
 /// One message into the buffer, or bye when it is too long; false when the peer is gone.
@@ -211,23 +209,58 @@ awaitable<bool> WebSocketSession::read_message() {
   co_return true;
 }
 
-awaitable<void> WebSocketSession::write() {
-  for (;;) {
-    while (const auto message = conversation_->next_message()) {
-      ws_.text(message->kind == Kind::text);
-      writing_ = true;
-      const auto [error, bytes] = co_await ws_.async_write(asio::buffer(message->bytes), kAwait);
-      writing_ = false;
-      if (error) co_return close_socket();
-      conversation_->sent(*message);
-      // What was not read while too much waited may be read now.
-      readable_.notify();
-    }
-    if (conversation_->ended()) break;
-    co_await writable_.wait();
-  }
+/// After the last message, or when the peer is gone.
+awaitable<void> WebSocketSession::say_farewell() {
+  while (!conversation_->ended() && socket().socket().is_open()) co_await said_all_.wait();
   co_await ws_.async_close(websocket::close_code::normal, kAwait);
-  close_socket();
+  socket().close();
+}
+
+void WebSocketSession::wake() {
+  readable_.notify();
+  flush_soon();
+}
+
+/// What comes in one go, answers and meshes say, leaves in one go.
+void WebSocketSession::flush_soon() {
+  if (flushing_soon_ || stuck_) return;
+  flushing_soon_ = true;
+  asio::post(ws_.get_executor(), [self = shared_from_this()] { self->flush(); });
+}
+
+void WebSocketSession::flush() {
+  flushing_soon_ = false;
+  if (stuck_ || !socket().socket().is_open()) return;
+  if (send_more()) socket().close();
+  if (!socket().socket().is_open() || conversation_->ended()) said_all_.notify();
+  // What was not read while too much waited may be read now.
+  readable_.notify();
+}
+
+beast::error_code WebSocketSession::send_more() {
+  // One for all sessions of a thread: it stays in the caches, and who has nothing to say or is
+  // quick to read has no memory for it.
+  static thread_local std::string messages;
+  messages.clear();
+  if (socket().flushed() && ws_.is_open()) conversation_->take_output(messages, kEnoughBytes);
+  const bool enough = messages.size() >= kEnoughBytes;
+
+  if (const auto error = socket().send(messages)) return error;
+  if (!socket().flushed()) {
+    wait_writable();
+    return {};
+  }
+  conversation_->written();
+  if (enough) flush_soon();
+  return {};
+}
+
+void WebSocketSession::wait_writable() {
+  stuck_ = true;
+  socket().async_wait_writable([self = shared_from_this()](const beast::error_code& error) {
+    self->stuck_ = false;
+    if (!error) self->flush();
+  });
 }
 
 awaitable<void> WebSocketSession::watch() {
@@ -241,33 +274,23 @@ awaitable<void> WebSocketSession::watch() {
     if (conversation_->ending() && bye_at_ == Clock::time_point::max()) bye_at_ = now;
     if (conversation_->ending() && now - bye_at_ > limits_.farewell) break;
   }
-  close_socket();
+  socket().close();
 }
 
 void WebSocketSession::check_time(Clock::time_point now) {
   if (!conversation_->greeted() && now - opened_ > limits_.hello)
     return conversation_->say_bye({Code::timeout, "no hello came", {}});
-  const auto silence = now - beast::get_lowest_layer(ws_).rate_policy().last_byte();
+  const auto silence = now - socket().last_byte();
   if (silence > limits_.silence)
     return conversation_->say_bye({Code::timeout, "nothing was heard for too long", {}});
   if (silence > limits_.silence / 2) ping();
 }
 
 void WebSocketSession::ping() {
-  // While a message is being written, its bytes say whether the peer is there.
-  if (pinging_ || writing_ || conversation_->ending()) return;
-  auto& policy = beast::get_lowest_layer(ws_).rate_policy();
-  pinging_ = true;
-  policy.count_written(false);  // only the answer to a ping says anything
-  ws_.async_ping({}, [self = shared_from_this(), &policy](const beast::error_code&) {
-    policy.count_written(true);
-    self->pinging_ = false;
-  });
-}
-
-void WebSocketSession::close_socket() {
-  beast::error_code ignored;
-  beast::get_lowest_layer(ws_).socket().close(ignored);
+  // What waits says, by leaving or by staying, whether the peer is there.
+  if (!socket().flushed() || !ws_.is_open() || conversation_->ending()) return;
+  if (socket().send_ping(kPing)) return socket().close();
+  if (!socket().flushed()) wait_writable();
 }
 
 awaitable<void> WebSocketSession::sleep(std::chrono::nanoseconds time) {
