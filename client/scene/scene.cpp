@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace earthwork::scene {
 
+using protocol::ChunkDelta;
 using protocol::ChunkKey;
+using protocol::ChunkMesh;
 using protocol::ChunkRecord;
 using protocol::Code;
 using protocol::fail;
@@ -22,18 +25,25 @@ tl::unexpected<protocol::Failure> too_many_chunks() {
 
 }  // namespace
 
-void Scene::join(std::uint64_t epoch) {
+void Scene::join(std::uint64_t epoch, std::uint64_t map_seq) {
   group_.reset();
   complete_view_.reset();
-  if (epoch == epoch_) return;
-  clear();
+  holding_.join(epoch, map_seq);
+  keep_only([this](const ChunkKey& key) { return holding_.holds(key); });
   epoch_ = epoch;
-  seq_ = 0;
+  seq_ = holding_.seq();
+}
+
+void Scene::look(std::uint32_t n, const std::optional<protocol::MapRect>& rect,
+                 const protocol::MapSettings& settings) {
+  holding_.look(n, rect, settings);
+  keep_only([this](const ChunkKey& key) { return holding_.wants(key); });
 }
 
 void Scene::catch_up(std::uint32_t n, std::uint64_t seq) {
   complete_view_ = n;
   seq_ = std::max(seq_, seq);
+  holding_.catch_up(n, seq);
 }
 
 Result<void> Scene::take(std::span<protocol::FrameEvent> events, std::size_t message_bytes) {
@@ -45,6 +55,8 @@ Result<void> Scene::take(std::span<protocol::FrameEvent> events, std::size_t mes
       taken = take_begin(*begin);
     else if (const auto* end = std::get_if<GroupEnd>(&event))
       taken = take_end(*end);
+    else if (const auto* delta = std::get_if<ChunkDelta>(&event))
+      taken = take_delta(*delta);
     else
       taken = take_record(std::get<ChunkRecord>(event));
     if (!taken) return taken;
@@ -69,6 +81,31 @@ Result<void> Scene::take_record(ChunkRecord& record) {
   return {};
 }
 
+// What a delta starts from does not change before the group's end: nothing comes outside groups
+// while one is open. A mesh is all that is needed, so nothing is kept beside it.
+Result<void> Scene::take_delta(const ChunkDelta& delta) {
+  if (!group_) return fail(Code::bad_frame, "a delta comes outside a group");
+  const auto refuse = [&](const std::string& sentence) {
+    return fail(Code::bad_frame, "base revision: " + sentence, "base revision");
+  };
+  const ChunkMesh* base = nullptr;
+  std::uint64_t revision = 0;
+  const auto pending = group_->records.find(delta.key);
+  const auto held = chunks_.find(delta.key);
+  if (pending != group_->records.end() && !pending->second.removed)
+    base = &pending->second.mesh, revision = pending->second.revision;
+  else if (pending == group_->records.end() && held != chunks_.end() &&
+           group_->begin.epoch == epoch_)
+    base = &held->second.mesh, revision = held->second.revision;
+  if (!base) return refuse("a delta's chunk has no mesh");
+  if (revision != delta.base_revision)
+    return refuse("a delta starts from " + std::to_string(delta.base_revision) +
+                  ", the mesh held is of " + std::to_string(revision));
+  auto record = protocol::apply_delta(*base, delta);
+  if (!record) return tl::unexpected<protocol::Failure>(std::move(record.error()));
+  return take_record(*record);
+}
+
 Result<void> Scene::take_end(const GroupEnd& end) {
   if (!group_) return fail(Code::bad_frame, "a group ends that did not begin");
   Group group = std::move(*group_);
@@ -76,15 +113,20 @@ Result<void> Scene::take_end(const GroupEnd& end) {
   if (end.seq != group.begin.seq)
     return fail(Code::bad_frame, "a group of seq " + std::to_string(group.begin.seq) +
                                      " ends with seq " + std::to_string(end.seq));
-  if (group.begin.epoch != epoch_) clear();
+  if (group.begin.epoch != epoch_) {
+    clear();
+    holding_.join(group.begin.epoch, end.seq);
+  }
   for (auto& [key, record] : group.records)
     if (auto applied = apply(record); !applied) return applied;
   epoch_ = group.begin.epoch;
   seq_ = end.seq;
+  holding_.reach(end.seq);
   return {};
 }
 
 Result<void> Scene::apply(ChunkRecord& record) {
+  if (!holding_.wants(record.key)) return {};
   drop(record.key);
   if (record.removed) return {};
   if (chunks_.size() == kMaxSceneChunks) return too_many_chunks();
@@ -112,6 +154,14 @@ void Scene::drop(const ChunkKey& key) {
   stats_.triangles -= chunk.mesh.triangles.size() / 3;
   stats_.sections -= chunk.mesh.sections.size();
   chunks_.erase(found);
+}
+
+template <class Stays>
+void Scene::keep_only(const Stays& stays) {
+  std::vector<ChunkKey> gone;
+  for (const auto& [key, chunk] : chunks_)
+    if (!stays(key)) gone.push_back(key);
+  for (const ChunkKey& key : gone) drop(key);
 }
 
 void Scene::clear() {

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 
+#include "client/scene/holding.hpp"
 #include "protocol/chunk_record.hpp"
 #include "protocol/frame.hpp"
 #include "protocol/limits.hpp"
@@ -34,15 +36,22 @@ class Scene {
  public:
   using Chunks = std::map<protocol::ChunkKey, SceneChunk>;
 
-  /// The map was joined, in this epoch; of another one, all meshes go.
-  void join(std::uint64_t epoch);
+  /// The map was joined, in this epoch and at `map_seq`. Meshes stay where `have` claims them; all
+  /// others go, for the server does not know of them.
+  void join(std::uint64_t epoch, std::uint64_t map_seq = std::numeric_limits<std::uint64_t>::max());
+  /// View `n` was asked for, all of the map without a rectangle: meshes outside it go, and those
+  /// that are still on their way are dropped. Before it, everything is inside.
+  void look(std::uint32_t n, const std::optional<protocol::MapRect>& rect,
+            const protocol::MapSettings& settings);
   /// All of view `n` has arrived, as of `seq`.
   void catch_up(std::uint32_t n, std::uint64_t seq);
 
   /// Takes what was complete with one binary message of `message_bytes`, in order; the records are
   /// moved from. A record outside a group is applied at once; those of a group together at its
-  /// end, and a group of another epoch replaces all there was. Fails with bad_frame or too_large;
-  /// after that the scene must not be fed again.
+  /// end, and a group of another epoch replaces all there was. A delta changes the mesh that the
+  /// group has of its chunk so far, or that is held: bad_frame when there is none, or one of
+  /// another revision. Fails with bad_frame or too_large; after that the scene must not be fed
+  /// again.
   [[nodiscard]] protocol::Result<void> take(std::span<protocol::FrameEvent> events,
                                             std::size_t message_bytes);
 
@@ -53,6 +62,9 @@ class Scene {
   [[nodiscard]] std::uint64_t seq() const { return seq_; }
   /// The number of the last view that is complete, if one is.
   [[nodiscard]] std::optional<std::uint32_t> complete_view() const { return complete_view_; }
+  /// What a view that is asked for after the next join may claim; nothing when there was no view
+  /// with a number given to `look`, or none was complete.
+  [[nodiscard]] std::optional<protocol::Have> have() const { return holding_.have(); }
   /// Of all that is held (GEOMETRY: "Hashes"), kept up to date: asking costs nothing.
   [[nodiscard]] std::uint64_t mesh_hash() const { return mesh_hash_; }
   [[nodiscard]] const SceneStats& stats() const { return stats_; }
@@ -65,16 +77,20 @@ class Scene {
 
   protocol::Result<void> take_begin(const protocol::GroupBegin& begin);
   protocol::Result<void> take_record(protocol::ChunkRecord& record);
+  protocol::Result<void> take_delta(const protocol::ChunkDelta& delta);
   protocol::Result<void> take_end(const protocol::GroupEnd& end);
   protocol::Result<void> apply(protocol::ChunkRecord& record);
   void put(const protocol::ChunkKey& key, SceneChunk chunk);
   void drop(const protocol::ChunkKey& key);
+  template <class Stays>
+  void keep_only(const Stays& stays);
   void clear();
 
   Chunks chunks_;
   std::optional<Group> group_;
   std::uint64_t epoch_ = 0, seq_ = 0, mesh_hash_ = 0;
   std::optional<std::uint32_t> complete_view_;
+  Holding holding_;
   SceneStats stats_;
 };
 

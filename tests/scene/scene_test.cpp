@@ -129,15 +129,39 @@ TEST(Scene, KnowsWhichViewIsComplete) {
 TEST(Scene, KeepsItsMeshesOnlyInTheirEpoch) {
   Scene scene;
   scene.join(kEpoch);
+  scene.look(1, {}, {});
   ASSERT_TRUE(take(scene, {record(0, 10), GroupBegin{kEpoch, 5, 1}, GroupEnd{5}}));
-  scene.join(kEpoch);
+  scene.catch_up(1, 5);
+  scene.join(kEpoch, 5);
   EXPECT_EQ(scene.chunks().size(), 1u);
   EXPECT_EQ(scene.seq(), 5u);
-  scene.join(kEpoch + 1);
+  EXPECT_EQ(scene.have()->seq, 5u);
+  scene.join(kEpoch + 1, 9);
+  EXPECT_EQ(scene.have(), std::nullopt);
   EXPECT_TRUE(scene.chunks().empty());
   EXPECT_EQ(scene.mesh_hash(), 0u);
   EXPECT_EQ(scene.seq(), 0u);
   EXPECT_EQ(scene.epoch(), kEpoch + 1);
+}
+
+TEST(Scene, DropsAtAJoinWhatItDoesNotClaim) {
+  Scene scene;
+  scene.join(kEpoch);
+  scene.look(1, {}, {});
+  ASSERT_TRUE(take(scene, {record(0, 10), record(1, 20)}));
+  EXPECT_EQ(scene.have(), std::nullopt) << "the view is not complete";
+  scene.join(kEpoch, 9);
+  EXPECT_TRUE(scene.chunks().empty());
+  EXPECT_EQ(scene.mesh_hash(), 0u);
+
+  ASSERT_TRUE(take(scene, {record(0, 10), record(3, 20)}));
+  scene.catch_up(1, 9);
+  scene.look(2, protocol::MapRect{64, 8, 120, 8}, {});  // chunks 1 to 3
+  EXPECT_EQ(scene.chunks().size(), 1u);
+  ASSERT_TRUE(take(scene, {record(0, 11), record(2, 30)}));
+  EXPECT_EQ(scene.chunks().size(), 2u) << "chunk 0 was on its way for the view before";
+  scene.join(kEpoch, 8);
+  EXPECT_TRUE(scene.chunks().empty()) << "the map has not got that far";
 }
 
 TEST(Scene, AGroupOfAnotherEpochReplacesAllThereWas) {
