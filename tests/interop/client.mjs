@@ -1,84 +1,80 @@
 // A client of the server: says hello, joins a map, looks, paints. Every request is a promise of its
-// reply; a request that the server turns down throws a Refusal. Reconnecting is the caller's: open
-// a new client with `key`, and tell view() what `have` is still held.
+// reply; a request that the server turns down throws a Refusal.
+//
+// A connection that is lost is opened again, and nobody who uses the client needs to know: it comes
+// back under its key, sends every request again that was not answered, and is sent what changed in
+// its view meanwhile. No edit is lost, and none is done twice.
 import { EventEmitter } from 'node:events';
-import WebSocket from 'ws';
+import { setTimeout as delay } from 'node:timers/promises';
+import { waitBefore } from './backoff.mjs';
+import { Connection, Disconnected } from './connection.mjs';
+import { People } from './people.mjs';
 import { Scene } from './scene.mjs';
 
-const SUBPROTOCOL = 'earthwork.v1';
 const VERSIONS = [1, 1];
-const MAX_SERVER_MESSAGE_BYTES = 1048576;
 
-// What the server said no to: `code` for programs, `message` for people, `field` where one is
-// wrong.
-export class Refusal extends Error {
-  constructor({ code, message, field }) {
-    super(message);
-    Object.assign(this, { code, field });
-  }
-}
-
-// Events: 'change' (records that became visible), 'close' (why, an Error).
+// Events: 'change' (records that became visible), 'presence' (sessions, see `people`), 'event' (an
+// edit that the map accepted), 'lost' (why), 'back', and 'close' (why, an Error) when it is over.
 export class Client extends EventEmitter {
-  welcome;  // {session, key, protocol, limits}
+  welcome;  // {session, key, protocol, limits} of the last connection
   joined;   // {map, settings, epoch, seq, users}: the map as it was then
   scene;    // what is seen of it
-  #socket;
-  #lastId = 0;
+  people;   // who is there
+  #server;
+  #who;
+  #connection;
+  #live = false;  // requests are sent at once
+  #lastId;
   #lastView = 0;
-  #requests = new Map();  // from id to what waits for the reply
-  #waiting = new Set();   // what waits for the scene
-  #ended;                 // why there is no connection any more
+  #nextEvent;               // the seq of the event that comes next, when they were asked for
+  #unanswered = new Set();  // requests, in the order of their ids
+  #waiting = new Set();     // what waits for the scene
+  #ended;                   // why it is over
 
-  // `server` is http://HOST:PORT. `key`, of an earlier welcome, makes this the same author again.
-  static async connect(server, { name = 'a bot', color = '#40a060', key } = {}) {
-    const client = new Client(new WebSocket(`${server.replace(/^http/, 'ws')}/ws`, SUBPROTOCOL, {
-      maxPayload: MAX_SERVER_MESSAGE_BYTES,
-    }));
-    await new Promise((resolve, reject) => {
-      client.#socket.once('open', resolve);
-      client.once('close', reject);
-    });
-    client.welcome = await client.#ask({ type: 'hello', protocol: VERSIONS, name, color, key });
+  // `server` is http://HOST:PORT. `key`, of an earlier welcome, makes this the same author again;
+  // then `lastId` is the largest id that was given to a request under that key.
+  static async connect(server, { name = 'a bot', color = '#40a060', key, lastId = 0 } = {}) {
+    const client = new Client();
+    client.#server = server;
+    client.#who = { protocol: VERSIONS, name, color, key };
+    client.#lastId = lastId;
+    await client.#open();
     return client;
   }
 
-  constructor(socket) {
-    super();
-    this.#socket = socket;
-    socket.on('message', (data, isBinary) => this.#receive(data, isBinary));
-    socket.on('error', (error) => this.#end(error));
-    socket.on('close', () => this.#end(new Error('the connection was closed')));
-  }
-
-  // The last id given to a request. Ids grow, so an author who comes back goes on from here.
   get lastId() { return this.#lastId; }
 
-  async join(map) {
-    await this.#ask({ type: 'join', map }, (joined) => {
+  join(map) {
+    return this.#ask({ type: 'join', map }, (joined) => {
       this.joined = joined;
       this.scene = new Scene(joined);
+      this.people = new People(joined.users);
     });
   }
 
-  leave() { return this.#ask({ type: 'leave' }); }
+  leave() {
+    return this.#ask({ type: 'leave' }, () => {
+      this.joined = this.scene = this.people = this.#nextEvent = undefined;
+    });
+  }
+
   ping() { return this.#ask({ type: 'ping' }); }
 
-  // Looks at `rect`, [x0, y0, x1, y1] in map units, or at all of the map without one. `have`,
-  // {epoch, seq, rect}, claims what `chunks` of an earlier scene held.
-  view(rect, { have, chunks = [] } = {}) {
-    const n = ++this.#lastView;
-    const what = rect ? { rect } : { all: true };
-    // The scene changes exactly at the reply: what belongs to the new view comes after it.
-    return this.#ask({ type: 'view', n, ...what, have }, () => {
-      for (const [key, chunk] of chunks) this.scene.chunks.set(key, chunk);
-      this.scene.look({ n, rect });
-    });
-  }
+  // Looks at `rect`, [x0, y0, x1, y1] in map units, or at all of the map without one.
+  view(rect) { return this.#ask(...this.#viewOf(rect)); }
 
   // Stamps {stencil, fill, x, y or path, radius, layer?, stroke?}. Returns the edit's number.
-  async edit(stamp) {
-    return (await this.#ask({ type: 'edit', ...stamp })).seq;
+  async edit(stamp) { return (await this.#ask({ type: 'edit', ...stamp })).seq; }
+
+  // Points at {x, y}, or nowhere without it, with a brush {stencil, radius, fill, layer?} in hand.
+  // To be said again within 30 seconds.
+  cursor(at, brush) {
+    return this.#ask({ type: 'cursor', ...(at ?? { hidden: true }), brush });
+  }
+
+  // All that the map accepted from that seq on, as 'event', and then what it accepts.
+  events(fromSeq) {
+    return this.#ask({ type: 'events', from_seq: fromSeq }, () => { this.#nextEvent = fromSeq; });
   }
 
   // Resolves once all of the view is held, as of `seq` or later.
@@ -91,50 +87,106 @@ export class Client extends EventEmitter {
   }
 
   async close() {
-    if (this.#socket.readyState === WebSocket.CLOSED) return;
-    const closed = new Promise((resolve) => { this.#socket.once('close', resolve); });
-    this.#socket.close(1000);
-    await closed;
+    this.#end(new Error('the client was closed'));
+    await this.#connection.close();
   }
 
-  // `atReply` runs before any later message is looked at.
-  #ask(message, atReply = () => {}) {
+  #ask(message, atReply) {
     return new Promise((resolve, reject) => {
       if (this.#ended) return reject(this.#ended);
-      const id = ++this.#lastId;
-      this.#requests.set(id, { atReply, resolve, reject });
-      this.#socket.send(JSON.stringify({ ...message, id }));
+      const request = { message: this.#numbered(message), atReply, resolve, reject };
+      this.#unanswered.add(request);
+      if (this.#live) this.#send(request);
     });
   }
 
-  #receive(data, isBinary) {
+  #numbered(message) { return { ...message, id: ++this.#lastId }; }
+
+  async #send(request) {
     try {
-      if (isBinary) this.#see(data);
-      else this.#hear(JSON.parse(data));
+      const reply = await this.#connection.ask(request.message, request.atReply);
+      request.resolve(reply);
     } catch (error) {
-      this.#end(error);
-      this.#socket.close(1002);
+      if (error instanceof Disconnected) return;  // it is sent again
+      request.reject(error);
+    }
+    this.#unanswered.delete(request);
+  }
+
+  async #open() {
+    const connection = new Connection(this.#server);
+    this.#connection = connection;
+    connection.on('binary', (message) => this.#see(message));
+    connection.on('control', (message) => this.#hear(message));
+    this.welcome = await connection.ask(this.#numbered({ type: 'hello', ...this.#who }));
+    this.#who.key = this.welcome.key;
+    if (this.joined) await this.#rejoin(connection);
+    if (connection.ended) throw connection.ended;
+    connection.once('end', (why) => this.#lose(why));
+    this.#live = true;
+    for (const request of this.#unanswered) this.#send(request);
+  }
+
+  // Back into the map, to the same view, as far as it was seen, and the same place in the events.
+  async #rejoin(connection) {
+    const { map, epoch } = this.joined;
+    const joined = await connection.ask(this.#numbered({ type: 'join', map }), ({ users }) => {
+      this.people = new People(users);
+    });
+    if (joined.epoch !== epoch) throw new Error(`${map} was made anew: what was drawn is lost`);
+    const have = this.scene.interrupt();
+    const again = [];
+    if (this.scene.view) again.push(this.#viewOf(this.scene.view.rect, have));
+    if (this.#nextEvent) again.push([{ type: 'events', from_seq: this.#nextEvent }]);
+    for (const [message, atReply] of again) await connection.ask(this.#numbered(message), atReply);
+  }
+
+  // The message, and what to do at its reply: from there on all that comes belongs to this view.
+  #viewOf(rect, have) {
+    const n = ++this.#lastView;
+    return [
+      { type: 'view', n, ...(rect ? { rect } : { all: true }), have },
+      () => this.scene.look({ n, rect }),
+    ];
+  }
+
+  async #lose(why) {
+    this.#live = false;
+    if (this.#ended) return;
+    this.emit('lost', why);
+    for (let attempt = 0; ; ++attempt) {
+      if (!(why instanceof Disconnected)) return this.#end(why);
+      await delay(Math.max(waitBefore(attempt), why.retryAfterMs), undefined, { ref: false });
+      if (this.#ended) return;
+      try {
+        await this.#open();
+        return this.emit('back');
+      } catch (error) {
+        why = error;
+      }
     }
   }
 
   #see(message) {
+    if (!this.scene) return;  // of a map that was left
     const records = this.scene.receive(message);
     if (records.length > 0) this.emit('change', records);
     this.#settle();
   }
 
+  // A message that is no reply; one of a type that this client does not know is ignored.
   #hear(message) {
-    if (message.type === 'bye') return this.#end(new Refusal(message));
+    if (!this.joined) return;
     if (message.type === 'caught_up') {
       this.scene.catchUp(message);
-      return this.#settle();
+      this.#settle();
+    } else if (message.type === 'presence') {
+      this.emit('presence', this.people.apply(message));
+    } else if (message.type === 'event') {
+      if (message.seq !== this.#nextEvent) return;  // on its way before they began anew
+      ++this.#nextEvent;
+      this.emit('event', message);
     }
-    const request = this.#requests.get(message.id);
-    if (!request) return;  // no reply, and of a type that this client does not know
-    this.#requests.delete(message.id);
-    if (message.type === 'rejected') return request.reject(new Refusal(message));
-    request.atReply(message);
-    request.resolve(message);
   }
 
   #settle() {
@@ -149,8 +201,8 @@ export class Client extends EventEmitter {
   #end(why) {
     if (this.#ended) return;
     this.#ended = why;
-    for (const { reject } of [...this.#requests.values(), ...this.#waiting]) reject(why);
-    this.#requests.clear();
+    for (const { reject } of [...this.#unanswered, ...this.#waiting]) reject(why);
+    this.#unanswered.clear();
     this.#waiting.clear();
     this.emit('close', why);
   }

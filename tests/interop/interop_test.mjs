@@ -5,14 +5,15 @@ import { once } from 'node:events';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
-import { Client } from './client.mjs';
+import {
+  assertHolds, inTime, join as joinAt, paint, speckles, square, stamps, watch as watchAt,
+} from './bots.mjs';
 import { createMap, deleteMap, describeMap, figuresOf } from './maps.mjs';
 import { twiceArea } from './mesh_hash.mjs';
 import { openRims } from './rims.mjs';
 import { startServer } from './server_process.mjs';
 
 const UNIT = 32768;
-const inTime = { timeout: 60_000 };
 let server;
 let url;
 
@@ -22,75 +23,9 @@ before(async () => {
 });
 after(async () => assert.equal(await server?.stop(), 0));
 
-async function join(t, map, who = {}) {
-  const client = await Client.connect(url, who);
-  t.after(() => client.close());
-  await client.join(map);
-  return client;
-}
-
-// Joins and looks; `changes` gathers the records that come.
-async function watch(t, map, rect) {
-  const client = await join(t, map, { name: 'watcher' });
-  const changes = [];
-  client.on('change', (records) => changes.push(...records));
-  await client.view(rect);
-  await client.until(0);
-  return { client, changes };
-}
-
+const join = (t, map, who) => joinAt(t, url, map, who);
+const watch = (t, map, rect) => watchAt(t, url, map, rect);
 const places = (records) => records.map(({ x, y }) => `${x},${y}`).sort();
-const square = (x, y, radius = 2, fill = true) => ({ stencil: 'square', fill, x, y, radius });
-
-// The same stamps at every run: circles, squares and paths, filled and emptied, on both layers.
-function stamps(seed, count) {
-  let state = seed;
-  const next = (low, high) => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return low + state / 2 ** 32 * (high - low);
-  };
-  return Array.from({ length: count }, (_, i) => {
-    const [x, y] = [next(-30, 30), next(-30, 30)];
-    const place = i % 3 === 2
-      ? { path: Array.from({ length: 8 }, (_, k) => [x + k * next(0, 1), y + k * next(-1, 1)]) }
-      : { x, y };
-    const stencil = i % 2 === 0 ? 'circle' : 'square';
-    return { stencil, fill: next(0, 1) < 0.7, radius: next(0.1, 5), layer: i % 2, ...place };
-  });
-}
-
-// One edit whose group takes several messages: neighbours come in different ones.
-const speckles = {
-  stencil: 'circle', fill: true, radius: 0.7,
-  path: Array.from({ length: 625 }, (_, i) => [i % 25 * 2.4 - 30, Math.floor(i / 25) * 2.4 - 30]),
-};
-
-// Paints with up to `window` edits unanswered at once. Returns their numbers.
-async function paint(client, edits, window) {
-  const numbers = [];
-  for (let i = 0; i < edits.length; i += window) {
-    numbers.push(...await Promise.all(edits.slice(i, i + window).map((e) => client.edit(e))));
-  }
-  return numbers;
-}
-
-function assertHolds({ scene, joined }, figures) {
-  const chunks = [...scene.chunks.values()];
-  const total = (count) => chunks.reduce((sum, chunk) => sum + count(chunk.mesh), 0);
-  const scale = joined.settings.voxel_size / UNIT;
-  const length = ({ xs, ys, sections }) => sections.reduce(
-    (sum, { start, end }) => sum + Math.hypot(xs[end] - xs[start], ys[end] - ys[start]), 0);
-  const near = (actual, expected, what) =>
-    assert.ok(Math.abs(actual - expected) <= 1e-9 * expected, `${what}: ${actual}, ${expected}`);
-
-  assert.equal(scene.seq, figures.seq);
-  assert.equal(scene.meshHash(), figures.mesh_hash);
-  assert.equal(chunks.length, figures.meshed_chunks);
-  assert.equal(total((mesh) => mesh.indices.length / 3), figures.triangles);
-  assert.equal(total((mesh) => mesh.xs.length), figures.vertices);
-  near(total(twiceArea) / 2 * scale ** 2, figures.surface_area, 'area');
-  near(total(length) * scale, figures.wall_length, 'wall length');
-}
 
 test('two clients paint at once, and a third sees what the server has', inTime, async (t) => {
   await createMap(url, 'crowd', {
@@ -208,27 +143,6 @@ test('a view that moves while others paint ends with what lies in it', inTime, a
   all.scene.look(part.scene.view);  // drops the rest
   assert.ok(part.scene.chunks.size > 2);
   assert.equal(part.scene.meshHash(), all.scene.meshHash());
-});
-
-test('who comes back is sent only what is newer', inTime, async (t) => {
-  await createMap(url, 'resumed', { chunk_resolution: 8 });
-  const { client: first } = await watch(t, 'resumed');
-  await first.until(await first.edit({ ...square(), path: [[4, 4], [20, 4], [36, 4]] }));
-  await first.close();
-
-  const painter = await join(t, 'resumed');
-  await painter.edit(square(20, 4, 3));
-  await painter.edit(square(36, 4, 3, false));
-
-  const back = await join(t, 'resumed', { key: first.welcome.key });
-  assert.equal(back.joined.epoch, first.joined.epoch);
-  const changes = [];
-  back.on('change', (records) => changes.push(...records));
-  const have = { epoch: first.joined.epoch, seq: first.scene.seq, rect: [-100, -100, 100, 100] };
-  await back.view(undefined, { have, chunks: first.scene.chunks });
-  await back.until(3);
-  assert.deepEqual(places(changes), ['2,0', '4,0']);
-  assertHolds(back, await figuresOf(url, 'resumed'));
 });
 
 test('a deleted map says goodbye', inTime, async (t) => {

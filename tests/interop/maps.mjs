@@ -1,5 +1,5 @@
 // The HTTP side of the server: maps are made, described and deleted there.
-import { Refusal } from './client.mjs';
+import { Refusal } from './connection.mjs';
 
 // Errors come as problem documents; the code is at the end of their type.
 async function request(url, options) {

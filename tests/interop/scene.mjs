@@ -7,6 +7,7 @@ const VERSION = 1;
 const GROUP_BEGIN = 1;
 const RECORDS = 2;
 const GROUP_END = 3;
+const MAP_END_VOXELS = 1000577;  // past the last cell of the largest map
 
 function keyOf({ layer, x, y, z }) {
   return `${layer}/${x}/${y}/${z}`;
@@ -31,6 +32,18 @@ export class Scene {
     this.view = view;
     this.complete = false;
     for (const [key, chunk] of this.chunks) if (!this.#sees(chunk)) this.chunks.delete(key);
+  }
+
+  // The connection was lost: what was under way does not come any more. Returns what the view of
+  // the next connection may claim to `have`; when that is nothing, all of it comes anew.
+  interrupt() {
+    const rect = this.view?.rect ?? this.#everywhere;
+    const have = this.complete ? { epoch: this.#joined.epoch, seq: this.seq, rect } : undefined;
+    if (!have) this.chunks.clear();
+    this.complete = false;
+    this.#group = undefined;
+    this.#stream = new RecordStream();
+    return have;
   }
 
   catchUp({ n, seq }) {
@@ -88,6 +101,11 @@ export class Scene {
       else this.chunks.delete(keyOf(record));
     }
     return seen;
+  }
+
+  get #everywhere() {
+    const end = MAP_END_VOXELS * this.#joined.settings.voxel_size;
+    return [-end, -end, end, end];
   }
 
   // Whether the view meets the chunk's cells, which lie half a voxel to the upper right.
