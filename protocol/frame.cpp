@@ -138,9 +138,9 @@ Result<void> FrameReader::records(std::span<const std::byte> body, std::vector<F
     const auto size = record_bytes(rest);
     if (!size) return tl::unexpected<Failure>(size.error());
     if (*size == 0 || rest.size() < *size) break;
-    auto record = decode_record(rest.first(*size));
-    if (!record) return tl::unexpected<Failure>(std::move(record.error()));
-    out.emplace_back(std::move(*record));
+    auto event = record(rest.first(*size));
+    if (!event) return tl::unexpected<Failure>(std::move(event.error()));
+    out.push_back(std::move(*event));
     taken += *size;
   }
   if (waiting)
@@ -148,6 +148,14 @@ Result<void> FrameReader::records(std::span<const std::byte> body, std::vector<F
   else
     partial_.assign(body.begin() + static_cast<std::ptrdiff_t>(taken), body.end());
   return {};
+}
+
+Result<FrameEvent> FrameReader::record(std::span<const std::byte> bytes) const {
+  if (!is_delta(bytes))
+    return decode_record(bytes).map(
+        [](ChunkRecord&& full) -> FrameEvent { return std::move(full); });
+  if (!in_group_) return refuse("kind", "a delta comes outside a group");
+  return decode_delta(bytes).map([](ChunkDelta&& delta) -> FrameEvent { return std::move(delta); });
 }
 
 }  // namespace earthwork::protocol

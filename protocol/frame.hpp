@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "protocol/chunk_record.hpp"
+#include "protocol/record_delta.hpp"
 #include "protocol/result.hpp"
 
 namespace earthwork::protocol {
@@ -32,8 +33,8 @@ struct GroupEnd {
 /// What a message of records begins with; the next piece of the record stream follows.
 [[nodiscard]] std::string_view records_head();
 
-/// Packs encoded records (`encode_record`) into messages of at most kMaxFrameBytes: many small
-/// ones into one message, one large one across several.
+/// Packs encoded records (`encode_record`, `encode_delta`) into messages of at most kMaxFrameBytes:
+/// many small ones into one message, one large one across several.
 class RecordPacker {
  public:
   /// `emit` receives each finished message.
@@ -47,7 +48,8 @@ class RecordPacker {
   std::string message_;
 };
 
-using FrameEvent = std::variant<GroupBegin, ChunkRecord, GroupEnd>;
+/// A ChunkDelta only between GroupBegin and GroupEnd.
+using FrameEvent = std::variant<GroupBegin, ChunkRecord, ChunkDelta, GroupEnd>;
 
 /// Takes a connection's binary messages in order and gives back what they hold. After a failure
 /// it must not be fed again.
@@ -62,6 +64,7 @@ class FrameReader {
   [[nodiscard]] Result<void> begin(std::span<const std::byte> body, std::vector<FrameEvent>& out);
   [[nodiscard]] Result<void> end(std::span<const std::byte> body, std::vector<FrameEvent>& out);
   [[nodiscard]] Result<void> records(std::span<const std::byte> body, std::vector<FrameEvent>& out);
+  [[nodiscard]] Result<FrameEvent> record(std::span<const std::byte> bytes) const;
 
   std::vector<std::byte> partial_;  // the start of a record whose end has not come
   bool in_group_ = false;

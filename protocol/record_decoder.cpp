@@ -40,11 +40,7 @@ class Decoder {
     record_.key.y = in_.i32();
     record_.key.z = in_.i32();
     record_.revision = in_.u64();
-    if (record_.key.layer >= static_cast<std::int32_t>(kMaxLayers))
-      return refuse("layer", "is beyond the limit of " + std::to_string(kMaxLayers - 1));
-    for (const std::int32_t at : {record_.key.x, record_.key.y, record_.key.z})
-      if (at < -kMaxChunkCoordinate || at > kMaxChunkCoordinate)
-        return refuse("key", "is beyond the limit of " + std::to_string(kMaxChunkCoordinate));
+    if (auto key = check_key(record_.key); !key && good()) failure_ = std::move(key.error());
   }
 
   void read_mesh() {
@@ -152,6 +148,17 @@ class Decoder {
 };
 
 }  // namespace
+
+Result<void> check_key(const ChunkKey& key) {
+  if (key.layer >= static_cast<std::int32_t>(kMaxLayers))
+    return fail(Code::bad_frame, "layer: is beyond the limit of " + std::to_string(kMaxLayers - 1),
+                "layer");
+  for (const std::int32_t at : {key.x, key.y, key.z})
+    if (at < -kMaxChunkCoordinate || at > kMaxChunkCoordinate)
+      return fail(Code::bad_frame,
+                  "key: is beyond the limit of " + std::to_string(kMaxChunkCoordinate), "key");
+  return {};
+}
 
 Result<ChunkRecord> decode_record(std::span<const std::byte> bytes) {
   return Decoder(bytes).decode();

@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "protocol/chunk_record.hpp"
+#include "protocol/result.hpp"
+
 namespace earthwork::protocol {
 
 inline constexpr std::uint8_t kRecordFull = 1, kRecordRemoved = 2;  ///< First byte of the body.
@@ -15,5 +18,8 @@ inline constexpr std::size_t kRecordHeadBytes = 22;
 inline constexpr int kSectionFlagBits = 2;
 inline constexpr std::uint32_t kStartNormalFollows = 1;  ///< Else it is the last section's end's.
 inline constexpr std::uint32_t kEndNormalFollows = 2;    ///< Else it is the start's.
+
+/// Whether the key is within its limits; its layer was a byte. bad_frame names the field.
+[[nodiscard]] Result<void> check_key(const ChunkKey& key);
 
 }  // namespace earthwork::protocol

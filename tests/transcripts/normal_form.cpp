@@ -76,6 +76,11 @@ std::vector<std::string> NormalForm::frame(const protocol::FrameEvent& event) {
             " epoch=" + name_of("epoch", protocol::hex(begin->epoch))};
   if (const auto* end = std::get_if<protocol::GroupEnd>(&event))
     return {"end seq=" + std::to_string(end->seq)};
+  if (const auto* delta = std::get_if<protocol::ChunkDelta>(&event))
+    return {"delta layer=" + std::to_string(delta->key.layer) +
+            " chunk=" + pair(delta->key.x, delta->key.y) + "," + std::to_string(delta->key.z) +
+            " revision=" + std::to_string(delta->revision) +
+            " base=" + std::to_string(delta->base_revision)};
   return record(std::get<ChunkRecord>(event));
 }
 
