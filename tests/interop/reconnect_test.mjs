@@ -151,6 +151,17 @@ test('a key and its ids serve again in another run', inTime, async (t) => {
   assert.equal((await describeMap(url, 'again')).seq, 2);
 });
 
+test('of ids long past nothing is known any more', inTime, async (t) => {
+  await createMap(url, 'long');
+  const painter = await join(t, url, 'long');
+  const remembered = painter.welcome.limits.max_remembered_ids;
+  const edits = Array.from({ length: remembered + 1 }, () => square(0, 0, 0.75));
+  assert.equal((await paint(painter, edits, 1000)).length, 4097);
+  const forgetful = await join(t, url, 'long', { key: painter.welcome.key });
+  await assert.rejects(forgetful.edit(square(0, 0)), { code: 'id_too_old', field: 'id' });
+  assert.equal(await forgetful.edit(square(0, 0)), 2);
+});
+
 test('another map of that name is not painted on', inTime, async (t) => {
   await createMap(url, 'replaced');
   const wire = await layWire(t, url);

@@ -115,6 +115,26 @@ test('a record outside a group is seen at once, unless it lies outside the view'
   assert.equal(scene.receive(asRecords(example('square chunk'))).length, 0);
 });
 
+test('a scene that was interrupted claims what it held, and begins where it was', () => {
+  const scene = new Scene(joined);
+  scene.look({ n: 3 });
+  scene.catchUp({ n: 2, seq: 256 });
+  scene.catchUp({ n: 3, seq: 257 });
+  scene.receive(asRecords(example('square chunk')));
+  scene.receive(example('group begin'));
+  scene.receive(asRecords(example('removed chunk').subarray(0, 9)));
+  const everywhere = [-1000577, -1000577, 1000577, 1000577];
+  assert.deepEqual(scene.interrupt(), { epoch: joined.epoch, seq: 257, rect: everywhere });
+  assert.equal(scene.chunks.size, 1);
+
+  // Before the view came back whole there is nothing to claim, and nothing to keep.
+  scene.look({ n: 4, rect: [-10, 100, -5, 105] });
+  assert.equal(scene.chunks.size, 1);
+  scene.receive(example('group begin'));
+  assert.equal(scene.interrupt(), undefined);
+  assert.equal(scene.chunks.size, 0);
+});
+
 test('binary messages out of turn are refused', () => {
   const refuses = (...messages) => {
     const scene = new Scene(joined);
