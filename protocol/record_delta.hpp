@@ -28,6 +28,11 @@ struct ChunkDelta {
 /// and then x, as the mesher's do.
 bool encode_delta(std::string_view base, std::string_view next, std::string& out);
 
+/// The same for who has the records themselves: full ones, and nothing is appended when it would
+/// not be smaller than `next_bytes`.
+bool encode_delta(const ChunkRecord& base, const ChunkRecord& next, std::size_t next_bytes,
+                  std::string& out);
+
 /// Whether `bytes`, a whole record with its length field, say that they are a delta.
 [[nodiscard]] bool is_delta(std::span<const std::byte> bytes);
 

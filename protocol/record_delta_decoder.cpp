@@ -8,14 +8,11 @@
 #include "protocol/limits.hpp"
 #include "protocol/record_delta.hpp"
 #include "protocol/record_delta_format.hpp"
+#include "protocol/record_delta_triangles.hpp"
 #include "protocol/record_format.hpp"
 
 namespace earthwork::protocol {
 namespace {
-
-Failure failure(const char* field, const std::string& sentence) {
-  return {Code::bad_frame, std::string(field) + ": " + sentence, field};
-}
 
 /// A normal is rounded from length 32767, so its own length is within one of that.
 bool is_unit(MeshNormal normal) {
@@ -35,9 +32,13 @@ class Delta {
     if (good()) read_sections();
     if (good()) read_vertices();
     if (good()) put_vertices();
-    if (good()) read_triangles();
+    if (good()) {
+      auto read = read_triangles(in_, base_, number_, mesh_);
+      if (!read) failure_ = std::move(read.error());
+    }
     if (good() && in_.remaining() > 0) refuse("delta", "holds bytes after its end");
-    if (!failure_ && in_.failed()) failure_ = failure("delta", "ends early, or has a bad varint");
+    if (!failure_ && in_.failed())
+      failure_ = frame_failure("delta", "ends early, or has a bad varint");
     if (failure_) return tl::unexpected<Failure>(std::move(*failure_));
     return std::move(mesh_);
   }
@@ -223,8 +224,8 @@ class Delta {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
     std::sort(order.begin(), order.end(),
               [&](std::uint32_t i, std::uint32_t j) { return precedes(added_[i], added_[j]); });
-    number_.assign(base_.vertices.size(), kGone);
-    added_number_.assign(added_.size(), kGone);
+    number_.assign(base_.vertices.size(), kNoVertex);
+    added_number_.assign(added_.size(), kNoVertex);
     mesh_.vertices.reserve(base_.vertices.size() + added_.size());
     auto next = order.begin();
     const auto put = [&](MeshPoint vertex, std::uint32_t& number) {
@@ -254,7 +255,7 @@ class Delta {
     mesh_.sections.reserve(sections_.size());
     for (const OpenSection& section : sections_) {
       const std::uint32_t a = number(section.a), b = number(section.b);
-      if (a == kGone || b == kGone)
+      if (a == kNoVertex || b == kNoVertex)
         return refuse("sections", "one stands on a vertex that is gone");
       mesh_.sections.push_back({static_cast<std::uint16_t>(a), static_cast<std::uint16_t>(b),
                                 section.normal_a, section.normal_b});
@@ -265,76 +266,11 @@ class Delta {
     return vertex < kFirstAdded ? number_[vertex] : added_number_[vertex - kFirstAdded];
   }
 
-  // The triangles: those of the base whose corners are all kept, in order, some skipped and others
-  // put in between.
-
-  void read_triangles() {
-    const std::size_t count = in_.varint();
-    if (count > base_.triangles.size() / 3 + in_.remaining())
-      return refuse("triangles", "are more than the base and the delta hold");
-    if (2 * mesh_.vertices.size() + 3 * count + mesh_.sections.size() > kMaxRecordBytes)
-      return refuse("triangles", "make the mesh larger than a record");
-    mesh_.triangles.reserve(count * 3);
-    const auto left = [&] { return count - mesh_.triangles.size() / 3; };
-    while (good() && left() > 0) {
-      const std::uint32_t head = in_.varint();
-      const std::size_t copied = head >> 4;
-      const std::size_t skipped = read_many(head >> 2 & 3), added = read_many(head & 3);
-      if (copied > left() || added > left() - copied || head == 0)
-        return refuse("triangles", "are not as many as was said");
-      pass_triangles(copied, true);
-      pass_triangles(skipped, false);
-      for (std::size_t i = 0; i < added && good(); ++i) read_triangle();
-    }
-  }
-
-  std::size_t read_many(std::uint32_t few) {
-    return few < kManyTriangles ? few : std::size_t{kManyTriangles} + in_.varint();
-  }
-
-  void pass_triangles(std::size_t count, bool copy) {
-    const auto& all = base_.triangles;
-    for (; count > 0; base_at_ += 3) {
-      if (base_at_ >= all.size()) return refuse("triangles", "are copied from beyond the base");
-      const std::uint32_t a = number_[all[base_at_]], b = number_[all[base_at_ + 1]],
-                          c = number_[all[base_at_ + 2]];
-      if (a == kGone || b == kGone || c == kGone) continue;
-      --count;
-      if (copy) put_triangle(a, b, c);
-    }
-  }
-
-  void read_triangle() {
-    const std::uint8_t head = in_.u8();
-    std::uint32_t corners[3];
-    std::int64_t value = last_[0];
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t code = head >> (2 * i) & 3;
-      value = code == kCornerFollows ? value + unzigzag(in_.varint()) : last_[code];
-      if (value < 0 || value >= static_cast<std::int64_t>(mesh_.vertices.size()))
-        return refuse("triangles", "an index is beyond the vertices");
-      corners[i] = static_cast<std::uint32_t>(value);
-    }
-    if (head >> 6 != 0 || corners[0] == corners[1] || corners[1] == corners[2] ||
-        corners[2] == corners[0])
-      return refuse("triangles", "a triangle names a vertex twice, or has no head");
-    put_triangle(corners[0], corners[1], corners[2]);
-  }
-
-  void put_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    last_[0] = static_cast<std::uint16_t>(a);
-    last_[1] = static_cast<std::uint16_t>(b);
-    last_[2] = static_cast<std::uint16_t>(c);
-    mesh_.triangles.insert(mesh_.triangles.end(), last_, last_ + 3);
-  }
-
   bool good() const { return !failure_ && !in_.failed(); }
   /// What comes of zeros read past the end is not said.
   void refuse(const char* field, const std::string& sentence) {
-    if (good()) failure_ = failure(field, sentence);
+    if (good()) failure_ = frame_failure(field, sentence);
   }
-
-  static constexpr std::uint32_t kGone = 0xFFFFFFFF;
 
   const ChunkMesh& base_;
   ByteReader in_;
@@ -344,14 +280,12 @@ class Delta {
   WallEnd end_;                                       // after the last section
   std::int64_t last_base_ = 0;                        // the base vertex named last
   std::vector<std::uint32_t> number_, added_number_;  // in the new mesh
-  std::size_t base_at_ = 0;                           // index of the next triangle of the base
-  std::uint16_t last_[3] = {};                        // the last triangle
   ChunkMesh mesh_;
   std::optional<Failure> failure_;
 };
 
 tl::unexpected<Failure> refuse(const char* field, const std::string& sentence) {
-  return tl::unexpected<Failure>(failure(field, sentence));
+  return tl::unexpected<Failure>(frame_failure(field, sentence));
 }
 
 }  // namespace

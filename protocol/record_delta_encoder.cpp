@@ -4,37 +4,18 @@
 #include <limits>
 #include <utility>
 
+#include "protocol/byte_appender.hpp"
 #include "protocol/byte_writer.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/record_delta.hpp"
 #include "protocol/record_delta_format.hpp"
+#include "protocol/record_delta_triangles.hpp"
 #include "protocol/record_format.hpp"
 
 namespace earthwork::protocol {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
-/// Triangles of one highest corner that are looked through for the next one.
-constexpr std::size_t kLookAhead = 64;
-
-/// Bytes that end up in `out`; nothing here is so large that room must be known beforehand.
-class Bytes {
- public:
-  explicit Bytes(std::string& out) : out_(out) {}
-  void u8(unsigned value) { out_ += static_cast<char>(value); }
-  void varint(std::uint32_t value) {
-    for (; value >= 0x80; value >>= 7) u8((value & 0x7F) | 0x80);
-    u8(value);
-  }
-  void step(std::int64_t value) { varint(zigzag(static_cast<std::int32_t>(value))); }
-  void i16(std::int16_t value) {
-    u8(static_cast<std::uint16_t>(value) & 0xFF);
-    u8(static_cast<std::uint16_t>(value) >> 8);
-  }
-
- private:
-  std::string& out_;
-};
+constexpr std::uint32_t kNone = kNoVertex;
 
 bool in_order(const std::vector<MeshPoint>& vertices) {
   for (std::size_t i = 1; i < vertices.size(); ++i)
@@ -73,7 +54,7 @@ class Encoder {
     plan_sections();
     write_sections();
     write_vertices();
-    write_triangles();
+    write_triangles(base_, next_, same_.of_base, out_);
   }
 
  private:
@@ -260,107 +241,10 @@ class Encoder {
     }
   }
 
-  // Triangles of both meshes come in the order of their highest corners, but for a few at the end.
-  // So what is the same is found by going along both; what is missed is only sent again.
-
-  struct Run {
-    std::size_t copied = 0, skipped = 0, first = 0, added = 0;  // `first` of those added
-  };
-  struct Triangle {
-    std::uint32_t a, b, c;
-    std::uint32_t highest() const { return std::max({a, b, c}); }
-    friend bool operator==(const Triangle&, const Triangle&) = default;
-  };
-
-  void write_triangles() {
-    std::vector<Triangle> base, next;
-    base.reserve(base_.triangles.size() / 3);
-    next.reserve(next_.triangles.size() / 3);
-    for (std::size_t i = 0; i < base_.triangles.size(); i += 3) {
-      const Triangle mapped{same_.of_base[base_.triangles[i]],
-                            same_.of_base[base_.triangles[i + 1]],
-                            same_.of_base[base_.triangles[i + 2]]};
-      if (mapped.highest() != kNone) base.push_back(mapped);
-    }
-    for (std::size_t i = 0; i < next_.triangles.size(); i += 3)
-      next.push_back({next_.triangles[i], next_.triangles[i + 1], next_.triangles[i + 2]});
-
-    out_.varint(static_cast<std::uint32_t>(next.size()));
-    Run run;
-    Triangle last{0, 0, 0};
-    const auto finish = [&] {
-      write_run(run, next, last);
-      const std::size_t end = run.first + run.added;
-      if (end > 0) last = next[end - 1];
-      run = {};
-    };
-    std::size_t i = 0;
-    for (std::size_t j = 0; j < next.size();) {
-      std::size_t found = i;
-      while (found < base.size() && base[found].highest() < next[j].highest()) ++found;
-      const std::size_t passed = found;
-      const std::size_t end = std::min(base.size(), passed + kLookAhead);
-      while (found < end && base[found].highest() == next[j].highest() && !(base[found] == next[j]))
-        ++found;
-      const bool same = found < end && base[found] == next[j];
-      if (!same) found = passed;
-      if (run.added > 0 && (same || found > i)) finish();
-      if (run.skipped > 0 && same) finish();
-      if (found > i) {
-        run.skipped += found - i;
-        i = found;
-      }
-      if (same) {
-        if (run.skipped > 0) finish();
-        ++run.copied;
-        ++i;
-        run.first = ++j;
-      } else {
-        if (run.added++ == 0) run.first = j;
-        ++j;
-      }
-    }
-    finish();
-  }
-
-  void write_run(const Run& run, const std::vector<Triangle>& next, Triangle last) {
-    const auto few = [](std::size_t many) {
-      return std::min(static_cast<std::uint32_t>(many), kManyTriangles);
-    };
-    const std::uint32_t head =
-        static_cast<std::uint32_t>(run.copied) << 4 | few(run.skipped) << 2 | few(run.added);
-    if (head == 0) return;
-    out_.varint(head);
-    for (const std::size_t many : {run.skipped, run.added})
-      if (many >= kManyTriangles) out_.varint(static_cast<std::uint32_t>(many) - kManyTriangles);
-    if (run.copied > 0) last = next[run.first - 1];
-    for (std::size_t j = run.first; j < run.first + run.added; ++j) {
-      write_triangle(next[j], last);
-      last = next[j];
-    }
-  }
-
-  void write_triangle(const Triangle& triangle, const Triangle& last) {
-    const std::uint32_t corners[] = {triangle.a, triangle.b, triangle.c};
-    const std::uint32_t known[] = {last.a, last.b, last.c};
-    std::uint32_t head = 0, codes[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      codes[k] = 0;
-      while (codes[k] < 3 && known[codes[k]] != corners[k]) ++codes[k];
-      head |= codes[k] << (2 * k);
-    }
-    out_.u8(head);
-    std::uint32_t before = known[0];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (codes[k] == kCornerFollows) out_.step(static_cast<std::int64_t>(corners[k]) - before);
-      before = corners[k];
-    }
-  }
-
   const ChunkMesh& base_;
   const ChunkMesh& next_;
   Matching same_;
-  Bytes out_;
+  ByteAppender out_;
   std::vector<std::uint32_t> starting_;  // the section of the base that starts at a vertex
   std::vector<Piece> pieces_;
   std::vector<std::uint8_t> kept_;    // vertices of the base that a section stands on again
@@ -379,7 +263,7 @@ void write_head(const ChunkRecord& next, std::uint32_t back, std::string& out) {
   bytes.i32(next.key.z);
   bytes.u64(next.revision);
   out.append(head, kRecordHeadBytes);
-  Bytes(out).varint(back);
+  ByteAppender(out).varint(back);
 }
 
 }  // namespace
@@ -389,19 +273,22 @@ bool encode_delta(std::string_view base_bytes, std::string_view next_bytes, std:
     return decode_record(std::as_bytes(std::span(bytes.data(), bytes.size())));
   };
   const auto base = read(base_bytes), next = read(next_bytes);
-  if (!base || !next || base->key != next->key || base->removed || next->removed ||
-      base->revision >= next->revision)
-    return false;
-  const std::uint64_t back = next->revision - base->revision;
-  if (back > std::numeric_limits<std::uint32_t>::max() || !in_order(base->mesh.vertices) ||
-      !in_order(next->mesh.vertices))
+  return base && next && encode_delta(*base, *next, next_bytes.size(), out);
+}
+
+bool encode_delta(const ChunkRecord& base, const ChunkRecord& next, std::size_t next_bytes,
+                  std::string& out) {
+  const std::uint64_t back = next.revision - base.revision;
+  if (base.key != next.key || base.removed || next.removed || base.revision >= next.revision ||
+      back > std::numeric_limits<std::uint32_t>::max() || !in_order(base.mesh.vertices) ||
+      !in_order(next.mesh.vertices))
     return false;
   const std::size_t start = out.size();
   out.append(kRecordLengthBytes, '\0');
-  write_head(*next, static_cast<std::uint32_t>(back), out);
-  Encoder(base->mesh, next->mesh, out).write();
+  write_head(next, static_cast<std::uint32_t>(back), out);
+  Encoder(base.mesh, next.mesh, out).write();
   const std::size_t size = out.size() - start;
-  if (size >= next_bytes.size()) {
+  if (size >= next_bytes) {
     out.resize(start);
     return false;
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "protocol/chunk_record.hpp"
+#include "protocol/open_edges.hpp"
 #include "protocol/wall_guess.hpp"
 
 namespace earthwork::protocol {
@@ -35,8 +36,13 @@ inline constexpr std::uint8_t kNormalFollows = 0xF0;
 
 /// Of a run of triangles: 16 * copied + 4 * skipped + added; 3 means that 3 + a varint are.
 inline constexpr std::uint32_t kManyTriangles = 3;
-/// A triangle's corner, in two bits: that of the triangle before, or a step follows.
+/// Of a triangle of which each corner is said: two bits a corner above the form's, the same as that
+/// corner of the triangle before, or a step follows.
 inline constexpr std::uint32_t kCornerFollows = 3;
+inline constexpr int kFormBits = 2, kCornersBits = 6;
+
+/// In place of a vertex: there is none.
+inline constexpr std::uint32_t kNoVertex = OpenEdges::kNone;
 
 /// Vertices by y and then x, none twice.
 inline bool precedes(MeshPoint a, MeshPoint b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }

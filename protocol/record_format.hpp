@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "protocol/chunk_record.hpp"
 #include "protocol/result.hpp"
@@ -19,6 +20,10 @@ inline constexpr int kSectionFlagBits = 2;
 inline constexpr std::uint32_t kStartNormalFollows = 1;  ///< Else it is the last section's end's.
 inline constexpr std::uint32_t kEndNormalFollows = 2;    ///< Else it is the start's.
 
+/// Of a binary message's field: what is wrong with it.
+inline Failure frame_failure(const char* field, const std::string& sentence) {
+  return {Code::bad_frame, std::string(field) + ": " + sentence, field};
+}
 /// Whether the key is within its limits; its layer was a byte. bad_frame names the field.
 [[nodiscard]] Result<void> check_key(const ChunkKey& key);
 

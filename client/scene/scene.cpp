@@ -36,6 +36,7 @@ void Scene::join(std::uint64_t epoch, std::uint64_t map_seq) {
 
 void Scene::look(std::uint32_t n, const std::optional<protocol::MapRect>& rect,
                  const protocol::MapSettings& settings) {
+  last_view_ = n;
   holding_.look(n, rect, settings);
   keep_only([this](const ChunkKey& key) { return holding_.wants(key); });
 }
@@ -85,25 +86,29 @@ Result<void> Scene::take_record(ChunkRecord& record) {
 // while one is open. A mesh is all that is needed, so nothing is kept beside it.
 Result<void> Scene::take_delta(const ChunkDelta& delta) {
   if (!group_) return fail(Code::bad_frame, "a delta comes outside a group");
-  const auto refuse = [&](const std::string& sentence) {
-    return fail(Code::bad_frame, "base revision: " + sentence, "base revision");
-  };
-  const ChunkMesh* base = nullptr;
-  std::uint64_t revision = 0;
-  const auto pending = group_->records.find(delta.key);
-  const auto held = chunks_.find(delta.key);
-  if (pending != group_->records.end() && !pending->second.removed)
-    base = &pending->second.mesh, revision = pending->second.revision;
-  else if (pending == group_->records.end() && held != chunks_.end() &&
-           group_->begin.epoch == epoch_)
-    base = &held->second.mesh, revision = held->second.revision;
-  if (!base) return refuse("a delta's chunk has no mesh");
-  if (revision != delta.base_revision)
-    return refuse("a delta starts from " + std::to_string(delta.base_revision) +
-                  ", the mesh held is of " + std::to_string(revision));
+  if (!holding_.wants(delta.key)) return {};
+  const ChunkMesh* base = base_of(delta);
+  if (!base) {
+    // Of an earlier view, it may be for a chunk that was let go since; the whole of it follows.
+    if (last_view_ && group_->begin.view != *last_view_) return {};
+    return fail(Code::bad_frame,
+                "base revision: no mesh of " + std::to_string(delta.base_revision) + " is held",
+                "base revision");
+  }
   auto record = protocol::apply_delta(*base, delta);
   if (!record) return tl::unexpected<protocol::Failure>(std::move(record.error()));
   return take_record(*record);
+}
+
+const ChunkMesh* Scene::base_of(const ChunkDelta& delta) const {
+  const auto pending = group_->records.find(delta.key);
+  if (pending != group_->records.end()) {
+    const ChunkRecord& record = pending->second;
+    return !record.removed && record.revision == delta.base_revision ? &record.mesh : nullptr;
+  }
+  const auto held = chunks_.find(delta.key);
+  if (held == chunks_.end() || group_->begin.epoch != epoch_) return nullptr;
+  return held->second.revision == delta.base_revision ? &held->second.mesh : nullptr;
 }
 
 Result<void> Scene::take_end(const GroupEnd& end) {

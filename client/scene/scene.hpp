@@ -50,8 +50,8 @@ class Scene {
   /// moved from. A record outside a group is applied at once; those of a group together at its
   /// end, and a group of another epoch replaces all there was. A delta changes the mesh that the
   /// group has of its chunk so far, or that is held: bad_frame when there is none, or one of
-  /// another revision. Fails with bad_frame or too_large; after that the scene must not be fed
-  /// again.
+  /// another revision, unless the group belongs to an earlier view. Fails with bad_frame or
+  /// too_large; after that the scene must not be fed again.
   [[nodiscard]] protocol::Result<void> take(std::span<protocol::FrameEvent> events,
                                             std::size_t message_bytes);
 
@@ -78,6 +78,8 @@ class Scene {
   protocol::Result<void> take_begin(const protocol::GroupBegin& begin);
   protocol::Result<void> take_record(protocol::ChunkRecord& record);
   protocol::Result<void> take_delta(const protocol::ChunkDelta& delta);
+  /// The mesh that the delta starts from; null when it is not held.
+  const protocol::ChunkMesh* base_of(const protocol::ChunkDelta& delta) const;
   protocol::Result<void> take_end(const protocol::GroupEnd& end);
   protocol::Result<void> apply(protocol::ChunkRecord& record);
   void put(const protocol::ChunkKey& key, SceneChunk chunk);
@@ -89,7 +91,7 @@ class Scene {
   Chunks chunks_;
   std::optional<Group> group_;
   std::uint64_t epoch_ = 0, seq_ = 0, mesh_hash_ = 0;
-  std::optional<std::uint32_t> complete_view_;
+  std::optional<std::uint32_t> last_view_, complete_view_;  // asked for, all there
   Holding holding_;
   SceneStats stats_;
 };

@@ -222,6 +222,87 @@ TEST(Scene, HoldsAViewOfEveryLayerAndNoMore) {
   }
 }
 
+/// A mesh whose walls leave something to copy: a row of `columns` squares, the last of them `side`
+/// wide.
+ChunkRecord row(std::int32_t side, std::uint64_t revision) {
+  constexpr std::uint16_t kColumns = 40;
+  ChunkMesh mesh;
+  for (const std::int32_t y : {0, 1000})
+    for (std::uint16_t i = 0; i <= kColumns; ++i)
+      mesh.vertices.push_back({i * 1000 + (i == kColumns ? side : 0), y});
+  for (std::uint16_t i = 0; i < kColumns; ++i) {
+    const auto at = [i](int step) { return static_cast<std::uint16_t>(i + step); };
+    mesh.triangles.insert(mesh.triangles.end(), {i, at(1), at(kColumns + 1)});
+    mesh.sections.push_back({i, at(1), {0, -32767}, {0, -32767}});
+  }
+  return {.key = {0, 0, 0, 0}, .revision = revision, .removed = false, .mesh = std::move(mesh)};
+}
+
+protocol::ChunkDelta delta(const ChunkRecord& base, const ChunkRecord& next) {
+  std::string bytes;
+  EXPECT_TRUE(protocol::encode_delta(base, next, 100'000, bytes));
+  return *protocol::decode_delta(std::as_bytes(std::span(bytes.data(), bytes.size())));
+}
+
+TEST(Scene, ADeltaChangesTheMeshThatIsHeld) {
+  Scene scene;
+  scene.join(kEpoch, 0);
+  ASSERT_TRUE(take(scene, {row(1, 1), record(1, 20)}));
+  ASSERT_TRUE(take(scene, {GroupBegin{kEpoch, 5, 1}, delta(row(1, 1), row(2, 5))}));
+  EXPECT_EQ(scene.chunks().at({0, 0, 0, 0}).mesh, row(1, 1).mesh) << "before the group's end";
+  ASSERT_TRUE(take(scene, {GroupEnd{5}}));
+  EXPECT_EQ(scene.chunks().at({0, 0, 0, 0}).mesh, row(2, 5).mesh);
+  EXPECT_EQ(scene.chunks().at({0, 0, 0, 0}).revision, 5u);
+  EXPECT_EQ(scene.mesh_hash(),
+            hash_of({{{0, 0, 0, 0}, row(2, 5).mesh}, {{0, 1, 0, 0}, square(20)}}));
+}
+
+TEST(Scene, ADeltaChangesWhatItsGroupBrought) {
+  Scene scene;
+  scene.join(kEpoch, 0);
+  ASSERT_TRUE(take(scene, {GroupBegin{kEpoch, 7, 1}, row(1, 4), delta(row(1, 4), row(2, 5)),
+                           delta(row(2, 5), row(3, 7)), GroupEnd{7}}));
+  EXPECT_EQ(scene.chunks().at({0, 0, 0, 0}).mesh, row(3, 7).mesh);
+}
+
+TEST(Scene, RefusesADeltaWhoseBaseItDoesNotHold) {
+  const auto error_of = [](std::vector<FrameEvent> events) {
+    Scene scene;
+    scene.join(kEpoch, 0);
+    const auto taken = take(scene, std::move(events));
+    EXPECT_FALSE(taken);
+    EXPECT_EQ(taken.error().code, Code::bad_frame);
+    return taken.error().detail;
+  };
+  const GroupBegin begin{kEpoch, 9, 1};
+  const auto change = delta(row(1, 4), row(2, 5));
+  EXPECT_EQ(error_of({row(1, 4), change}), "a delta comes outside a group");
+  const std::string none = "base revision: no mesh of 4 is held";
+  EXPECT_EQ(error_of({begin, change}), none);
+  EXPECT_EQ(error_of({row(1, 3), begin, change}), none);
+  EXPECT_EQ(error_of({row(1, 4), begin, removal(0), change}), none);
+  EXPECT_EQ(error_of({row(1, 4), begin, row(1, 6), change}), none);
+  EXPECT_EQ(error_of({row(1, 4), GroupBegin{kEpoch + 1, 9, 1}, change}), none);
+  auto broken = change;
+  broken.operations.pop_back();
+  EXPECT_EQ(error_of({row(1, 4), begin, broken}), "delta: ends early, or has a bad varint");
+}
+
+TEST(Scene, LetsADeltaOfAnEarlierViewGo) {
+  Scene scene;
+  scene.join(kEpoch, 0);
+  const auto change = delta(row(1, 4), row(2, 5));
+  const protocol::MapRect here{0, 0, 10, 10}, elsewhere{500, 500, 510, 510};
+  scene.look(1, here, {});
+  ASSERT_TRUE(take(scene, {row(1, 4)}));
+  scene.look(2, elsewhere, {});
+  ASSERT_TRUE(take(scene, {GroupBegin{kEpoch, 5, 1}, change})) << "outside the view";
+  scene.look(3, here, {});
+  ASSERT_TRUE(take(scene, {change, GroupEnd{5}})) << "its chunk was let go";
+  EXPECT_TRUE(scene.chunks().empty());
+  EXPECT_FALSE(take(scene, {GroupBegin{kEpoch, 6, 3}, change}));
+}
+
 RC_GTEST_PROP(Scene, FiguresAreThoseOfItsMeshes, ()) {
   Scene scene;
   scene.join(kEpoch);
