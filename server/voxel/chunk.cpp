@@ -18,22 +18,22 @@ Chunk Chunk::assemble(const ChunkParts& parts) {
     chunk.full_ = parts.rows[0] != 0;
     return chunk;
   }
-  auto body = std::make_unique<Body>();
+  Body body;
   for (const Rows* words : {&parts.rows, &parts.x_masks, &parts.y_masks}) {
-    body->words.insert(body->words.end(), words->begin(), words->begin() + parts.resolution);
+    body.words.insert(body.words.end(), words->begin(), words->begin() + parts.resolution);
   }
   for (const Rows* masks : {&parts.x_masks, &parts.y_masks}) {
     int start = 0;
     for (int y = 0; y <= parts.resolution; ++y) {
-      body->starts.push_back(static_cast<std::uint16_t>(start));
+      body.starts.push_back(static_cast<std::uint16_t>(start));
       if (y < parts.resolution) start += std::popcount((*masks)[at(y)]);
     }
   }
-  assert(body->starts[at(parts.resolution)] == parts.x.size());
-  assert(body->starts.back() == parts.y.size());
-  body->packed[0] = parts.x;
-  body->packed[1] = parts.y;
-  chunk.body_ = std::move(body);
+  assert(body.starts[at(parts.resolution)] == parts.x.size());
+  assert(body.starts.back() == parts.y.size());
+  body.packed[0] = parts.x;
+  body.packed[1] = parts.y;
+  chunk.body_ = CopyOnWrite<Body>(std::move(body));
   return chunk;
 }
 
@@ -84,7 +84,8 @@ std::uint64_t Chunk::hash() const {
 
 std::size_t Chunk::body_bytes() const {
   if (!body_) return 0;
-  return sizeof(Body) + body_->words.capacity() * 8 + body_->starts.capacity() * 2 +
+  return CopyOnWrite<Body>::kHeapBytes + body_->words.capacity() * 8 +
+         body_->starts.capacity() * 2 +
          (body_->packed[0].capacity() + body_->packed[1].capacity()) * sizeof(Crossing);
 }
 

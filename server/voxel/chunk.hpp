@@ -9,10 +9,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "server/voxel/copy_on_write.hpp"
 #include "server/voxel/crossing.hpp"
 #include "server/voxel/grid.hpp"
 
@@ -33,6 +33,8 @@ struct ChunkParts {
   std::vector<Crossing> x, y;
 };
 
+/// Copies share the body until one of them is edited, which copies it first; see CopyOnWrite for
+/// what different threads may do with them.
 class Chunk {
  public:
   /// All voxels empty, no crossings. `resolution` is 8, 16, 32 or 64.
@@ -41,7 +43,7 @@ class Chunk {
 
   int resolution() const { return resolution_; }
   /// No crossings, and all voxels alike.
-  bool uniform() const { return body_ == nullptr; }
+  bool uniform() const { return !body_; }
   /// Neither a filled voxel nor a crossing: a map does not keep such a chunk.
   bool blank() const { return !body_ && !full_; }
 
@@ -69,7 +71,7 @@ class Chunk {
   /// XXH3-64 over the chunk's canonical bytes: u32 resolution; a u64 a row; the x crossings, then
   /// the y crossings, each u16 offset, i16 nx, i16 ny; all little-endian.
   std::uint64_t hash() const;
-  /// Bytes on the heap.
+  /// Bytes on the heap, counted for each copy that shares them.
   std::size_t body_bytes() const;
 
  private:
@@ -89,7 +91,7 @@ class Chunk {
     return axis == Axis::x ? 0 : std::size_t{1} + resolution_;
   }
 
-  std::unique_ptr<Body> body_;  // none when uniform
+  CopyOnWrite<Body> body_;  // none when uniform
   std::uint8_t resolution_;
   bool full_ = false;  // what a uniform chunk is
 };

@@ -93,8 +93,9 @@ Touched ChunkEdit::apply(const Coverage& coverage, const ChunkPlace& place, Chun
 
 void ChunkEdit::set_states(const Coverage& coverage, const ChunkPlace& place, Chunk& chunk) {
   states_.clear();
+  std::vector<std::uint64_t>& words = chunk.body_.own().words;
   for (int y = first_row_; y <= last_row_; ++y) {
-    std::uint64_t& row = chunk.body_->words[Chunk::at(y)];
+    std::uint64_t& row = words[Chunk::at(y)];
     const std::uint64_t before = row;
     const std::uint64_t covered = bits_from(coverage.run(place.y + y), place.x) & chunk.full_row();
     row = coverage.fill() == Fill::filled ? row | covered : row & ~covered;
@@ -172,7 +173,7 @@ std::uint64_t ChunkEdit::rebuild_row(Axis axis, int y, const NewRow& row, const 
 
 // Puts the rebuilt rows where the old ones were, and moves the starts of the rows after them.
 void ChunkEdit::store_rows(Axis axis, Chunk& chunk) {
-  Chunk::Body& body = *chunk.body_;
+  Chunk::Body& body = chunk.body_.own();
   std::copy(masks_.begin(), masks_.end(),
             body.words.begin() + static_cast<std::ptrdiff_t>(chunk.mask_offset(axis)) + first_row_);
   std::uint16_t* starts = body.starts.data() + chunk.start_offset(axis);
@@ -201,16 +202,16 @@ void ChunkEdit::store_rows(Axis axis, Chunk& chunk) {
 void ChunkEdit::materialise(Chunk& chunk) {
   if (chunk.body_) return;
   const std::size_t resolution = chunk.resolution_;
-  auto body = std::make_unique<Chunk::Body>();
-  body->words.resize(3 * resolution);
-  if (chunk.full_) std::fill_n(body->words.begin(), resolution, chunk.full_row());
-  body->starts.resize(2 * (resolution + 1));
-  chunk.body_ = std::move(body);
+  Chunk::Body body;
+  body.words.resize(3 * resolution);
+  if (chunk.full_) std::fill_n(body.words.begin(), resolution, chunk.full_row());
+  body.starts.resize(2 * (resolution + 1));
+  chunk.body_ = CopyOnWrite(std::move(body));
 }
 
 // Without crossings all voxels are alike, because two that differ have one somewhere between.
 void ChunkEdit::simplify(Chunk& chunk) {
-  auto& packed = chunk.body_->packed;
+  auto& packed = chunk.body_.own().packed;
   if (packed[0].empty() && packed[1].empty()) {
     chunk.full_ = chunk.body_->words[0] != 0;
     chunk.body_.reset();
