@@ -1,5 +1,6 @@
 // earthwork-bot: the command line. Each subcommand is a file of its own.
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -41,6 +42,21 @@ void add_target(CLI::App& command, Options& options) {
   command.add_option("--map", options.map, "The map's name")->required();
 }
 
+template <class Options>
+void add_patience(CLI::App& command, Options& options) {
+  command
+      .add_option_function<double>(
+          "--patience",
+          [&options](double seconds) {
+            options.patience = std::chrono::duration_cast<std::chrono::milliseconds>(
+                std::chrono::duration<double>(seconds));
+          },
+          "Seconds without a connection until the server is taken to be gone for good; a broken "
+          "connection is tried again till then, and nothing is lost")
+      ->check(number(0, kMaxSeconds))
+      ->default_str("60");
+}
+
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App& run = *app.add_subcommand("run", "Sends the edits of a script in order");
   run.add_option("SCRIPT", options.script, "JSON lines: the map's settings, then edits")
@@ -53,11 +69,13 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(whole(1, kMaxWindow))
       ->capture_default_str();
   run.add_option("--rate", options.rate, "Edits a second, at most")->check(number(1e-3, kMaxRate));
-  run.footer(std::string("Prints one line, also when interrupted or when the server goes away: "
-                         "{\"edits\" sent, \"acked\", \"rejected\", \"seconds\", \"ack_p50_ms\", "
-                         "\"ack_p99_ms\", \"seq\"}. {\"wait_ms\":N} in a script sends nothing for "
-                         "so long.\n") +
-             kExitCodes);
+  add_patience(run, options);
+  run.footer(
+      std::string("Prints one line, also when interrupted or when the server goes away for good: "
+                  "{\"edits\" sent, \"acked\", \"rejected\", \"seconds\", \"ack_p50_ms\", "
+                  "\"ack_p99_ms\", \"seq\"}. {\"wait_ms\":N} in a script sends nothing for "
+                  "so long.\n") +
+      kExitCodes);
 }
 
 void add_trace(CLI::App& app, TraceOptions& options, bool& invert) {
@@ -77,6 +95,7 @@ void add_trace(CLI::App& app, TraceOptions& options, bool& invert) {
       ->check(whole(8, 64))
       ->check(CLI::IsMember({8, 16, 32, 64}))
       ->capture_default_str();
+  add_patience(trace, options);
   trace.footer(
       std::string("The lower left pixel is voxel (0, 0) of layer 0, the top row is up. Where the "
                   "map is not new, the ground under the picture is emptied first. Prints the line "
@@ -93,6 +112,7 @@ void add_watch(CLI::App& app, WatchCommandOptions& options) {
   watch.add_option("--seconds", options.seconds, "End after so long")
       ->check(number(0, kMaxSeconds));
   watch.add_option("--glb", options.glb, "Write the mesh to this file, as glTF");
+  add_patience(watch, options);
   watch.footer(
       std::string(
           "Without --until-seq and --seconds it ends once it has all of the map; with both, "

@@ -18,10 +18,7 @@ nlohmann::ordered_json write_report(const PaintReport& report) {
 }
 
 ExitCode exit_code(const PaintReport& report) {
-  using link::CloseCause;
-  if (report.broken && (report.broken->cause == CloseCause::unreachable ||
-                        report.broken->cause == CloseCause::refused))
-    return kUsage;
+  if (report.broken && !report.joined) return kUsage;
   return report.finished && report.rejected == 0 ? kDone : kFailed;
 }
 

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <unordered_map>
 #include <utility>
+
+#include "client/link/event_loop.hpp"
+#include "client/link/membership.hpp"
 
 namespace earthwork::bot {
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-using protocol::MessageId;
 
 constexpr auto kGrace = 1s;       // for the answers that are due after a signal
 constexpr auto kMostBehind = 1s;  // of a rate that could not be kept: the rest is not made up
@@ -26,23 +29,46 @@ class Painter {
     const link::SignalWatch signals(loop_, [this] { interrupt(); });
     protocol::Hello hello;
     hello.name = "earthwork-bot";
-    link_.emplace(loop_,
-                  link::LinkOptions{.server = options_.server, .hello = hello, .map = options_.map},
-                  link::LinkHandlers{.ready = [this] { begin(); },
-                                     .message = [this](const auto& message) { take(message); },
-                                     .frame = {},
-                                     .closed = [this](const auto& closing) { closed(closing); }});
+    membership_.emplace(
+        loop_,
+        link::MembershipOptions{.server = options_.server,
+                                .map = options_.map,
+                                .resume = {.hello = hello, .patience = options_.patience}},
+        link::MembershipHandlers{
+            .joined = [this](const auto& joined, auto how) { take_joined(joined, how); },
+            .have = {},
+            .answered = [this](const auto& answer) { take(answer); },
+            .message = {},
+            .frame = {},
+            .lost = [this](const auto& why, auto) { tell_lost(why); },
+            .ended = [this](const auto& closing) { ended(closing); }});
     loop_.run();
     stop_clock();
-    link_.reset();
+    membership_.reset();
     return std::move(report_);
   }
 
  private:
-  void begin() {
-    started_ = next_send_ = Clock::now();
-    advance();
-    finish_if_done();
+  struct InFlight {
+    std::uint64_t number = 0;  // of the script's edits
+    Clock::time_point since;
+  };
+
+  void take_joined(const protocol::Joined& joined, link::Joining how) {
+    if (how == link::Joining::again) {
+      log_ << "joined again\n";
+    } else if (how == link::Joining::another_map) {
+      give_up({.code = protocol::Code::unknown_map,
+               .detail = "map: " + options_.map + " was made anew, this is another one",
+               .field = "map"});
+    } else {
+      report_.joined = true;
+      report_.seq = joined.seq;
+      started_ = next_send_ = Clock::now();
+      advance();
+      finish_if_done();
+    }
+    told_lost_ = false;
   }
 
   /// Takes steps until one has to wait: for an answer, for the rate, or for the script.
@@ -53,7 +79,7 @@ class Painter {
       if (const auto* wait = std::get_if<protocol::Wait>(&step)) {
         ++next_step_;
         pause(std::chrono::milliseconds(wait->ms));
-      } else if (in_flight_.size() >= options_.window || link_->congested()) {
+      } else if (in_flight_.size() >= options_.window || membership_->congested()) {
         return;
       } else if (const auto early = next_send_ - Clock::now(); early > 0ns) {
         pause(early);
@@ -74,12 +100,11 @@ class Painter {
   }
 
   void send(const protocol::Edit& edit) {
-    const MessageId id = ++last_id_;
     const Clock::time_point now = Clock::now();
     ++report_.edits;
-    if (const auto sent = link_->send(protocol::EditMessage{.id = id, .edit = edit}); !sent)
-      return refuse(id, sent.error());
-    in_flight_.emplace(id, now);
+    const auto id = membership_->edit(edit);
+    if (!id) return refuse(report_.edits, id.error());
+    in_flight_.emplace(*id, InFlight{.number = report_.edits, .since = now});
     if (options_.edits_per_second) {
       const std::chrono::duration<double> interval(1 / *options_.edits_per_second);
       next_send_ = std::max(next_send_, now - kMostBehind) +
@@ -87,35 +112,27 @@ class Painter {
     }
   }
 
-  void take(const protocol::ServerMessage& message) {
-    if (const auto* joined = std::get_if<protocol::Joined>(&message)) {
-      report_.seq = joined->seq;
-    } else if (const auto* applied = std::get_if<protocol::Applied>(&message)) {
-      take_applied(*applied);
-    } else if (const auto* rejected = std::get_if<protocol::Rejected>(&message)) {
-      if (!rejected->id || in_flight_.erase(*rejected->id) == 0) return;
-      refuse(*rejected->id, rejected->failure);
-      advance();
+  void take(const link::Answer& answer) {
+    const auto found = in_flight_.find(answer.id);
+    if (found == in_flight_.end()) return;
+    const InFlight edit = found->second;
+    in_flight_.erase(found);
+    if (answer.fate == link::Fate::lost) return;  // what ends it all is told by itself
+    if (answer.fate == link::Fate::rejected) {
+      refuse(edit.number, answer.why);
+    } else {
+      const std::chrono::duration<double, std::milli> took = Clock::now() - edit.since;
+      report_.ack_ms.push_back(took.count());
+      report_.seq = report_.acked++ == 0 ? answer.seq : std::max(report_.seq, answer.seq);
     }
+    advance();
     finish_if_done();
   }
 
-  void take_applied(const protocol::Applied& applied) {
-    const auto found = in_flight_.find(applied.id);
-    if (found == in_flight_.end()) return;
-    const Clock::time_point now = Clock::now();
-    report_.ack_ms.push_back(
-        std::chrono::duration<double, std::milli>(now - found->second).count());
-    in_flight_.erase(found);
-    ++report_.acked;
-    report_.seq = std::max(report_.seq, applied.seq);
-    advance();
-  }
-
-  void refuse(MessageId id, const protocol::Failure& why) {
+  void refuse(std::uint64_t number, const protocol::Failure& why) {
     ++report_.rejected;
     if (report_.rejected <= kToldRefusals)
-      log_ << "edit " << id << " refused: " << name(why.code) << ": " << why.detail << '\n';
+      log_ << "edit " << number << " refused: " << name(why.code) << ": " << why.detail << '\n';
     else if (report_.rejected == kToldRefusals + 1)
       log_ << "more edits refused\n";
   }
@@ -128,7 +145,7 @@ class Painter {
 
   void finish() {
     stop_clock();
-    link_->close();
+    membership_->close();
   }
 
   void interrupt() {
@@ -140,7 +157,18 @@ class Painter {
     finish_if_done();
   }
 
-  void closed(const link::Closing& closing) {
+  /// Once for all that is tried until the next join.
+  void tell_lost(const link::Closing& why) {
+    if (!std::exchange(told_lost_, true)) log_ << why.failure.detail << "; trying again\n";
+  }
+
+  void give_up(protocol::Failure why) {
+    log_ << why.detail << '\n';
+    report_.broken = link::Closing{.cause = link::CloseCause::lost, .failure = std::move(why)};
+    finish();
+  }
+
+  void ended(const link::Closing& closing) {
     if (closing.cause != link::CloseCause::asked) {
       log_ << closing.failure.detail << '\n';
       report_.broken = closing;
@@ -158,15 +186,15 @@ class Painter {
   const std::span<const protocol::ScriptStep> steps_;
   std::ostream& log_;
   PaintReport report_;
-  std::unordered_map<MessageId, Clock::time_point> in_flight_;  // and when they were sent
-  MessageId last_id_ = 0;
+  std::unordered_map<protocol::MessageId, InFlight> in_flight_;
   std::size_t next_step_ = 0;
   bool pausing_ = false;
+  bool told_lost_ = false;  // and not joined since
   std::optional<Clock::time_point> started_;
   Clock::time_point next_send_;
   link::EventLoop loop_;
   link::Timer pause_, grace_;
-  std::optional<link::Link> link_;
+  std::optional<link::Membership> membership_;
 };
 
 }  // namespace

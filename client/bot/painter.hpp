@@ -1,18 +1,17 @@
-/// Sends edits to a map and waits for the answers, a bounded number of them at a time.
+/// Sends edits to a map and waits for the answers, a bounded number of them at a time; when the
+/// connection breaks, over another one.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
-#include "client/link/event_loop.hpp"
-#include "client/link/link.hpp"
+#include "client/link/closing.hpp"
+#include "client/link/server_address.hpp"
 #include "protocol/script.hpp"
 #include "protocol/settings.hpp"
 
@@ -23,18 +22,21 @@ struct PaintOptions {
   std::string map;
   std::size_t window = 64;                 ///< Edits without an answer, at most; at least 1.
   std::optional<double> edits_per_second;  ///< None: as fast as they are answered.
+  /// Without a connection for so long, the server is gone for good.
+  std::chrono::milliseconds patience{60'000};
 };
 
 struct PaintReport {
-  std::uint64_t edits = 0;     ///< Handed to the link.
+  std::uint64_t edits = 0;     ///< Sent, or to be sent over the next connection.
   std::uint64_t acked = 0;     ///< Of those, applied.
-  std::uint64_t rejected = 0;  ///< Of those, refused: by the server, or unsent by the link itself.
-  double seconds = 0;          ///< From the answer to the join to the last answer.
+  std::uint64_t rejected = 0;  ///< Of those, refused by the server, or too long to be sent.
+  double seconds = 0;          ///< From the answer to the first join to the last answer.
   std::vector<double> ack_ms;  ///< From sending to `applied`, in the order of the answers.
   std::uint64_t seq = 0;       ///< Of the last edit applied; of the join before there is one.
   bool finished = false;       ///< Every step was taken and every edit answered.
   bool interrupted = false;
-  std::optional<link::Closing> broken;  ///< Why the connection ended, unless it was to end.
+  bool joined = false;                  ///< The map was joined, once at least.
+  std::optional<link::Closing> broken;  ///< Why it ended early, unless it was told to.
 };
 
 /// Takes the steps in order. Refused edits, and why it ends early, are told on `log`, a line each.

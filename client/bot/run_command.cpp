@@ -74,7 +74,8 @@ ExitCode run_command(const RunOptions& options, std::ostream& out, std::ostream&
   const PaintReport report = paint({.server = *server,
                                     .map = options.map,
                                     .window = options.window,
-                                    .edits_per_second = options.rate},
+                                    .edits_per_second = options.rate,
+                                    .patience = options.patience},
                                    script->steps, log);
   const ExitCode code = exit_code(report);
   if (code != kUsage) out << write_report(report).dump() << std::endl;

@@ -1,6 +1,7 @@
 /// earthwork-bot run: an edit script, sent in order.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
@@ -18,7 +19,8 @@ struct RunOptions {
   std::string server, map;
   bool create = false;
   std::size_t window = 64;
-  std::optional<double> rate;  ///< Edits a second.
+  std::optional<double> rate;                  ///< Edits a second.
+  std::chrono::milliseconds patience{60'000};  ///< As of PaintOptions.
 };
 
 /// Reads the whole script before anything is sent. Prints the report as one line on `out`, and

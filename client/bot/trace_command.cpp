@@ -65,8 +65,9 @@ ExitCode trace_command(const TraceOptions& options, std::ostream& out, std::ostr
   const Ground ground = map->seq == 0 ? Ground::empty : Ground::unknown;
   const auto edits = plan_trace(*picture, ground, map->settings);
   const std::vector<protocol::ScriptStep> steps(edits.begin(), edits.end());
-  const PaintReport report =
-      paint({.server = *server, .map = options.map, .edits_per_second = {}}, steps, log);
+  const PaintReport report = paint(
+      {.server = *server, .map = options.map, .edits_per_second = {}, .patience = options.patience},
+      steps, log);
   const ExitCode code = exit_code(report);
   if (code == kUsage) return code;
   auto line = write_report(report);

@@ -1,6 +1,7 @@
 /// earthwork-bot trace: a picture, painted one voxel a pixel.
 #pragma once
 
+#include <chrono>
 #include <iosfwd>
 #include <string>
 
@@ -17,7 +18,8 @@ struct TraceOptions {
   bool create = false;
   int threshold = 128;  ///< 0 .. 256.
   Ink ink = Ink::dark;
-  int resolution = 32;  ///< Of a map that is made.
+  int resolution = 32;                         ///< Of a map that is made.
+  std::chrono::milliseconds patience{60'000};  ///< As of PaintOptions.
 };
 
 /// Prints the report as one line on `out`, and what is to be said to people on `log`. Blocks.

@@ -56,14 +56,17 @@ ExitCode watch_command(const WatchCommandOptions& options, std::ostream& out, st
   if (!protocol::valid_map_name(options.map))
     return log << "map: '" << options.map << "' is no map's name: 1-64 of a-z, 0-9, '-', '_'\n",
            kUsage;
-  WatchOptions watching{
-      .server = *server, .map = options.map, .until_seq = options.until_seq, .time_limit = {}};
+  WatchOptions watching{.server = *server,
+                        .map = options.map,
+                        .until_seq = options.until_seq,
+                        .time_limit = {},
+                        .patience = options.patience};
   if (options.seconds)
     watching.time_limit = std::chrono::duration_cast<std::chrono::nanoseconds>(
         std::chrono::duration<double>(*options.seconds));
 
   const WatchReport report = watch(watching, log);
-  if (report.broken && report.broken->cause != link::CloseCause::lost) return kUsage;
+  if (report.broken && !report.joined) return kUsage;
   out << figures(report.scene) << std::endl;
   return finish(report, options, log);
 }

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "client/bot/paint_report.hpp"
+#include "protocol/messages.hpp"
 #include "tests/link/fake_server.hpp"
 
 namespace earthwork::bot {
@@ -22,13 +23,13 @@ using link::FakeServer;
 using link::Peer;
 using nlohmann::json;
 
-void greet(Peer& peer) {
+void greet(Peer& peer, const std::string& epoch = "00000000000000aa") {
   peer.read();
   peer.write(R"({"type":"welcome","session":"0123456789abcdef",)"
              R"("key":"0123456789abcdef0123456789abcdef","protocol":1,"limits":{}})");
   peer.read();
-  peer.write(R"({"type":"joined","map":"demo","settings":{},"epoch":"00000000000000aa","seq":7,)"
-             R"("users":[]})");
+  peer.write(R"({"type":"joined","map":"demo","settings":{},"epoch":")" + epoch +
+             R"(","seq":7,"users":[]})");
 }
 
 void apply(Peer& peer, int id, int seq) {
@@ -74,14 +75,18 @@ struct Painting {
 };
 
 Painting run(std::function<void(Peer&, Log&)> play, const std::vector<protocol::ScriptStep>& steps,
-             std::size_t window = 64) {
+             std::size_t window = 64,
+             std::chrono::milliseconds patience = std::chrono::milliseconds(0)) {
   Log log;
   PaintReport report;
   {
     const FakeServer server("earthwork.v1", [&](Peer& peer) { play(peer, log); });
     std::ostream out(&log);
-    const PaintOptions options{
-        .server = server.address(), .map = "demo", .window = window, .edits_per_second = {}};
+    const PaintOptions options{.server = server.address(),
+                               .map = "demo",
+                               .window = window,
+                               .edits_per_second = {},
+                               .patience = patience};
     report = paint(options, steps, out);
   }
   return {std::move(report), log.text()};
@@ -212,6 +217,75 @@ TEST(Painter, HasNothingToTalkToWithoutItsMap) {
   EXPECT_EQ(painting.log, "no such map\n");
   EXPECT_EQ(painting.report.edits, 0u);
   EXPECT_EQ(exit_code(painting.report), kUsage);
+}
+
+/// A first connection that breaks after its first edit was answered, and another one.
+Painting run_twice(const std::function<void(Peer&)>& second, int count) {
+  int connections = 0;
+  return run(
+      [&](Peer& peer, Log&) {
+        if (++connections > 1) return second(peer);
+        greet(peer);
+        peer.read();
+        apply(peer, 1, 8);
+        peer.write(R"({"type":"bye","code":"internal","message":"the disk is full"})");
+        peer.close(1011);
+      },
+      edits(count), 64, std::chrono::minutes(1));
+}
+
+TEST(Painter, GoesOnOverAnotherConnection) {
+  std::vector<std::string> heard;
+  const Painting painting = run_twice(
+      [&](Peer& peer) {
+        greet(peer);
+        for (int i = 2; i <= 3; ++i) {
+          heard.push_back(peer.read());
+          apply(peer, i, 7 + i);
+        }
+        peer.read();
+      },
+      3);
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(json::parse(heard[0])["id"], 2);
+  EXPECT_EQ(json::parse(heard[1])["id"], 3);
+  EXPECT_EQ(painting.report.edits, 3u);
+  EXPECT_EQ(painting.report.acked, 3u);
+  EXPECT_EQ(painting.report.seq, 10u);
+  EXPECT_EQ(painting.log, "the disk is full; trying again\njoined again\n");
+  EXPECT_EQ(exit_code(painting.report), kDone);
+}
+
+TEST(Painter, DoesNotGoOnInAnotherMap) {
+  std::string heard;
+  const Painting painting = run_twice(
+      [&](Peer& peer) {
+        greet(peer, "00000000000000bb");
+        heard = peer.read();
+      },
+      3);
+  EXPECT_EQ(heard, "closed 1000");
+  EXPECT_EQ(painting.report.edits, 3u);
+  EXPECT_EQ(painting.report.acked, 1u);
+  EXPECT_EQ(painting.report.rejected, 0u);
+  EXPECT_TRUE(painting.log.ends_with("map: demo was made anew, this is another one\n"));
+  EXPECT_EQ(exit_code(painting.report), kFailed);
+}
+
+TEST(Painter, ReportsWhatItHasWhenTheMapIsGone) {
+  const Painting painting = run_twice(
+      [](Peer& peer) {
+        peer.read();
+        peer.write(R"({"type":"welcome","session":"0123456789abcdef",)"
+                   R"("key":"0123456789abcdef0123456789abcdef","protocol":1,"limits":{}})");
+        peer.read();
+        peer.write(R"({"type":"rejected","code":"unknown_map","message":"no such map"})");
+        peer.read();
+      },
+      2);
+  EXPECT_EQ(painting.report.acked, 1u);
+  EXPECT_EQ(painting.log, "the disk is full; trying again\nno such map\n");
+  EXPECT_EQ(exit_code(painting.report), kFailed);
 }
 
 TEST(Painter, WaitsForTheAnswersThatAreDueAfterASignal) {

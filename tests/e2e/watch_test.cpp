@@ -120,7 +120,7 @@ Outcome watch_until(End end, std::chrono::milliseconds after) {
   const ServerProgram server;
   paint(server, "07_circles");
   EXPECT_TRUE(wait_for_users(server, "demo", 0));
-  Program program("earthwork-bot", watching(server, {"--until-seq", "100"}));
+  Program program("earthwork-bot", watching(server, {"--until-seq", "100", "--patience", "0"}));
   EXPECT_TRUE(wait_for_users(server, "demo", 1));
   std::this_thread::sleep_for(after);
   if (end == End::by_a_signal)
