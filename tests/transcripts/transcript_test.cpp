@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "tests/e2e/program.hpp"
+#include "tests/transcripts/normal_form.hpp"
 #include "tests/transcripts/player.hpp"
 
 namespace earthwork::transcripts {
@@ -65,6 +66,25 @@ TEST(Transcript, NamesALineThatIsNone) {
 TEST(Transcript, ExpandsWhatIsTooLongToWrite) {
   EXPECT_EQ(expand(R"({"path":$path(2),"x":$nest(3)}$spaces(2))"),
             R"({"path":[[0.5,0.5],[0.5,0.5]],"x":[[[]]]}  )");
+}
+
+TEST(NormalForm, NamesWhatDiffersFromRunToRun) {
+  NormalForm normal;
+  EXPECT_EQ(normal.text(
+                R"({"users":[{"session":"00000000000000a1","author":"00000000000000a2"}],"id":1})"),
+            R"({"users":[{"session":"$session1","author":"$author1"}],"id":1})");
+  EXPECT_EQ(normal.text(R"({"seq":1,"time":1700000000123,"author":"00000000000000a3",)"
+                        R"("hash":"00000000000000ff"})"),
+            R"({"seq":1,"time":"$time","author":"$author2","hash":"00000000000000ff"})");
+  EXPECT_EQ(normal.filled_in(R"({"key":"$author1"})"), R"({"key":"00000000000000a2"})");
+}
+
+TEST(NormalForm, ShowsPresenceOnDemand) {
+  NormalForm normal;
+  const std::string presence = R"({"type":"presence","left":["00000000000000a1"]})";
+  EXPECT_EQ(normal.text(presence), std::nullopt);
+  normal.show_presence = true;
+  EXPECT_EQ(normal.text(presence), R"({"type":"presence","left":["$session1"]})");
 }
 
 // The harness itself: an answer that differs, one too few, one too many.
