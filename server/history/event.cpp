@@ -8,4 +8,12 @@ void replay(voxel::Map& map, std::span<const Event> events) {
   for (const Event& event : events) apply(map, event.edit);
 }
 
+std::optional<std::uint64_t> verify(voxel::Map& map, std::span<const Event> events) {
+  for (const Event& event : events) {
+    apply(map, event.edit);
+    if (map.hash() != event.hash) return event.seq;
+  }
+  return std::nullopt;
+}
+
 }  // namespace earthwork::history

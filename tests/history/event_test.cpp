@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "server/history/fold.hpp"
 
 namespace earthwork::history {
@@ -14,7 +18,7 @@ using protocol::StencilShape;
 
 Event event(std::uint64_t seq, double x, double y, double radius, bool fill) {
   Edit edit{.fill = fill, .radius = radius, .path = {{x, y}}, .stroke = {}};
-  return {.seq = seq, .time_ms = 0, .author = 0, .edit = edit};
+  return {.seq = seq, .time_ms = 0, .author = 0, .id = 0, .edit = edit, .hash = 0};
 }
 
 rc::Gen<std::vector<Event>> some_events() {
@@ -26,7 +30,7 @@ rc::Gen<std::vector<Event>> some_events() {
                   .radius = radius / 8.0,
                   .path = {{x, y}},
                   .stroke = {}};
-        return Event{.seq = 0, .time_ms = 0, .author = 0, .edit = edit};
+        return Event{.seq = 0, .time_ms = 0, .author = 0, .id = 0, .edit = edit, .hash = 0};
       },
       coordinate, coordinate, rc::gen::inRange(0, 120), rc::gen::arbitrary<bool>(),
       rc::gen::weightedElement<bool>({{3, true}, {1, false}}));
@@ -53,6 +57,46 @@ TEST(Events, MayBeReplayedInParts) {
     replay(parts, std::span(events).subspan(cut));
     RC_ASSERT(whole.hash() == parts.hash());
   });
+}
+
+/// As a map would have accepted them.
+void number(std::vector<Event>& events) {
+  voxel::Map map = make_map({});
+  std::uint64_t seq = 0;
+  for (Event& e : events) {
+    apply(map, e.edit);
+    e.seq = ++seq;
+    e.hash = map.hash();
+  }
+}
+
+TEST(Events, AreVerifiedByTheirHashes) {
+  rc::check([] {
+    auto events = *some_events();
+    number(events);
+    voxel::Map map = make_map({});
+    RC_ASSERT(verify(map, events) == std::nullopt);
+    if (events.empty()) return;
+
+    const auto wrong = *rc::gen::inRange<std::size_t>(0, events.size());
+    events[wrong].hash ^= 1;
+    voxel::Map again = make_map({});
+    RC_ASSERT(verify(again, events) == wrong + 1);
+  });
+}
+
+TEST(Events, TheFirstThatDiffersIsTold) {
+  std::vector<Event> events{event(1, 9, 9, 3, true), event(2, 9, 9, 2, false),
+                            event(3, 9, 9, 1, true)};
+  number(events);
+  events[1].edit.radius = 1;  // another edit than the one that was accepted
+  voxel::Map map = make_map({});
+  EXPECT_EQ(verify(map, events), 2u);
+  EXPECT_EQ(map.hash(), [&] {
+    voxel::Map first_two = make_map({});
+    replay(first_two, std::span(events).first(2));
+    return first_two.hash();
+  }());  // it stopped there
 }
 
 TEST(Events, AreReplayedInOrder) {
