@@ -1,5 +1,7 @@
 #include "server/room/room.hpp"
 
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "server/history/fold.hpp"
@@ -16,14 +18,26 @@ constexpr int kTurnEdits = 512;
 constexpr std::size_t kTurnDirtyChunks = 1024;
 constexpr std::uint64_t kTurnChunkVisits = 65536;
 
-// `joined` lists this many; it stays far below kMaxServerControlBytes.
-constexpr std::size_t kMaxListedUsers = 1000;
-
 /// The chunks that an edit looks at, a chunk once a stamp, or a few more.
 std::uint64_t chunk_visits(const protocol::Edit& edit, const protocol::MapSettings& settings) {
   const double side_voxels = 2 * edit.radius / settings.voxel_size;
   const auto side = static_cast<std::uint64_t>(side_voxels / settings.chunk_resolution) + 2;
   return side * side * edit.path.size();
+}
+
+/// Inside what the centre of an edit may have.
+protocol::Result<void> check_place(const protocol::MapPoint& at,
+                                   const protocol::MapSettings& settings) {
+  const double most = protocol::kMaxCoordinateVoxels * settings.voxel_size;
+  for (const auto& [field, value] : {std::pair("x", at.x), std::pair("y", at.y)}) {
+    if (std::abs(value) <= most) continue;
+    return protocol::fail(Code::out_of_range,
+                          std::string(field) + ": is beyond the limit of " +
+                              std::to_string(std::lround(protocol::kMaxCoordinateVoxels)) +
+                              " voxels",
+                          field);
+  }
+  return {};
 }
 
 }  // namespace
@@ -36,34 +50,37 @@ Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch
       strand_(std::move(strand)),
       meters_(std::move(meters)),
       map_(history::make_map(settings_)),
-      publisher_(map_, settings_, epoch_,
-                 [this](std::chrono::milliseconds delay, std::function<void()> task) {
-                   run_later(delay, std::move(task));
-                 }) {}
+      publisher_(
+          {map_, settings_, epoch_, meters_},
+          [this](std::chrono::milliseconds delay, std::function<void()> task) {
+            run_later(delay, std::move(task));
+          },
+          [this] { return workplace(); }),
+      herald_(events_, *strand_,
+              [this](std::chrono::milliseconds delay, std::function<void()> task) {
+                run_later(delay, std::move(task));
+              }) {}
 
 protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, protocol::User user) {
   if (closed_) return tl::unexpected<protocol::Failure>(*closed_);
   const ViewerId id = ++last_viewer_;
-  Seat& seat = seats_[id];
-  seat.viewer = std::move(viewer);
-  seat.user = std::move(user);
-  publisher_.enter(id, *seat.viewer);
+  auto guarded = std::make_shared<GuardedViewer>(std::move(viewer), [this] { schedule_turn(); });
+  publisher_.enter(id, *guarded);
+  herald_.enter(id, *guarded, std::move(user));
+  seats_[id].viewer = std::move(guarded);
 
   protocol::Joined joined{.map = name_,
                           .settings = settings_,
                           .epoch = protocol::hex(epoch_),
                           .seq = seq(),
-                          .users = {},
+                          .users = herald_.users(),
                           .id = {}};
-  for (const auto& [other, other_seat] : seats_) {
-    if (joined.users.size() == kMaxListedUsers) break;
-    joined.users.push_back(other_seat.user);
-  }
   return Entrance{id, std::move(joined)};
 }
 
 void Room::leave(ViewerId viewer) {
   publisher_.leave(viewer);
+  herald_.leave(viewer);
   seats_.erase(viewer);
 }
 
@@ -72,6 +89,7 @@ void Room::leave_when_told(ViewerId viewer, std::function<void()> gone) {
   if (found != seats_.end() && found->second.waiting > 0) {
     found->second.gone = std::move(gone);
     publisher_.leave(viewer);
+    herald_.leave(viewer);
     return;
   }
   leave(viewer);
@@ -85,28 +103,37 @@ protocol::Result<void> Room::look(ViewerId viewer, const protocol::View& view) {
 
 void Room::ready(ViewerId viewer) { publisher_.ready(viewer); }
 
-void Room::heard(ViewerId) {}
+void Room::heard(ViewerId viewer) { herald_.heard(viewer); }
 
-protocol::Result<void> Room::point(ViewerId, const protocol::Cursor&) {
-  return protocol::fail(Code::not_supported, "cursor is not offered by this server", "type");
+protocol::Result<void> Room::point(ViewerId viewer, const protocol::Cursor& cursor) {
+  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "cursor: join a map first");
+  if (cursor.at)
+    if (auto checked = check_place(*cursor.at, settings_); !checked) return checked;
+  herald_.point(viewer, cursor);
+  return {};
 }
 
-protocol::Result<void> Room::follow(ViewerId, std::uint64_t) {
-  return protocol::fail(Code::not_supported, "events is not offered by this server", "type");
+protocol::Result<void> Room::follow(ViewerId viewer, std::uint64_t from_seq) {
+  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "events: join a map first");
+  if (from_seq < 1 || from_seq > seq() + 1)
+    return protocol::fail(Code::out_of_range,
+                          "from_seq: " + std::to_string(from_seq) + " is not among 1 to " +
+                              std::to_string(seq() + 1) + ", the next event's",
+                          "from_seq");
+  herald_.follow(viewer, from_seq);
+  return {};
 }
 
 protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
   const auto found = seats_.find(viewer);
   if (found == seats_.end()) return protocol::fail(Code::bad_state, "edit: join a map first");
   if (auto checked = protocol::check_edit(command.edit, settings_); !checked) return checked;
-  const std::size_t points = command.edit.path.size();
-  if (waiting_points_ + points > kMaxWaitingPoints)
+  const std::uint64_t cost = chunk_visits(command.edit, settings_);
+  if (!line_.push({viewer, std::move(command), cost, strand_->now_ms()}))
     return protocol::fail(Code::too_large,
                           "path: edits of " + std::to_string(kMaxWaitingPoints) +
                               " points may wait in a map; send it again later",
                           "path");
-  waiting_.push_back({viewer, std::move(command)});
-  waiting_points_ += points;
   ++found->second.waiting;
   schedule_turn();
   return {};
@@ -132,6 +159,19 @@ void Room::run_later(std::chrono::milliseconds delay, std::function<void()> task
     strand_->post_after(delay, std::move(guarded));
 }
 
+Workplace Room::workplace() {
+  const auto weak = weak_from_this();
+  return {.aside =
+              [weak](Strand::Task task) {
+                if (const auto self = weak.lock()) self->strand_->post_aside(std::move(task));
+              },
+          .back =
+              [weak](Strand::Task task) {
+                if (const auto self = weak.lock())
+                  self->strand_->post([self, task = std::move(task)] { self->run(task); });
+              }};
+}
+
 void Room::schedule_turn() {
   if (turn_scheduled_) return;
   turn_scheduled_ = true;
@@ -140,40 +180,63 @@ void Room::schedule_turn() {
 
 void Room::turn() {
   turn_scheduled_ = false;
-  std::size_t dirty_chunks = 0;
+  turn_chunks_ = 0;
   std::uint64_t visits = 0;
-  for (int n = 0; n < kTurnEdits && dirty_chunks < kTurnDirtyChunks && visits < kTurnChunkVisits &&
-                  !waiting_.empty();
+  for (int n = 0; n < kTurnEdits && turn_chunks_ < kTurnDirtyChunks && visits < kTurnChunkVisits &&
+                  !line_.empty();
        ++n) {
-    visits += chunk_visits(waiting_.front().command.edit, settings_);
-    dirty_chunks += apply_next();
+    Line::Waiting next = line_.pop();
+    visits += next.cost;
+    Reply reply = decide(next.command);
+    if (const auto seat = seats_.find(next.viewer); seat != seats_.end()) {
+      --seat->second.waiting;
+      seat->second.told.push_back(std::move(reply));
+    }
   }
   acknowledge();
   let_go();
+  herald_.tell_events();
   publisher_.show(seq());
-  if (!waiting_.empty()) schedule_turn();
+  if (!line_.empty()) schedule_turn();
 }
 
-/// Gives back how many chunks are to be meshed again.
-std::size_t Room::apply_next() {
-  Waiting next = std::move(waiting_.front());
-  waiting_.pop_front();
-  waiting_points_ -= next.command.edit.path.size();
+Reply Room::decide(Command& command) {
+  const auto refuse = [&](Code code, const std::string& why) {
+    return protocol::Rejected{
+        .id = command.id,
+        .failure = {code, "id: " + std::to_string(command.id) + why, "id"},
+    };
+  };
+  const auto [standing, seq_before] = authors_.judge(command.author, command.id);
+  switch (standing) {
+    case Authors::Standing::fresh:
+      apply(command);
+      return protocol::Applied{.id = command.id, .seq = seq()};
+    case Authors::Standing::repeated:
+      ++meters_->repeated;
+      return protocol::Applied{.id = command.id, .seq = seq_before};
+    case Authors::Standing::out_of_order:
+      return refuse(Code::id_out_of_order, " was not applied, and a larger one was");
+    case Authors::Standing::too_old:
+      break;
+  }
+  return refuse(Code::id_too_old, " is below the last " +
+                                      std::to_string(protocol::kMaxRememberedIds) +
+                                      ", which are all that are remembered");
+}
 
-  const voxel::Change& change = history::apply(map_, next.command.edit);
-  ++meters_->edits;
+void Room::apply(Command& command) {
+  const voxel::Change& change = history::apply(map_, command.edit);
   publisher_.changed(change);
-  const std::size_t dirty_chunks = change.dirty.size();
-
+  turn_chunks_ += change.dirty.size();
   events_.push_back({.seq = seq() + 1,
                      .time_ms = strand_->now_ms(),
-                     .author = next.command.author,
-                     .edit = std::move(next.command.edit)});
-  if (const auto seat = seats_.find(next.viewer); seat != seats_.end()) {
-    --seat->second.waiting;
-    seat->second.told.push_back(protocol::Applied{.id = next.command.id, .seq = seq()});
-  }
-  return dirty_chunks;
+                     .author = command.author,
+                     .id = command.id,
+                     .edit = std::move(command.edit),
+                     .hash = map_.hash()});
+  authors_.applied(command.author, command.id, seq());
+  ++meters_->edits;
 }
 
 void Room::acknowledge() {
@@ -183,18 +246,29 @@ void Room::acknowledge() {
 
 void Room::let_go() {
   for (auto seat = seats_.begin(); seat != seats_.end();) {
-    if (!seat->second.gone || seat->second.waiting > 0) {
+    const ViewerId id = seat->first;
+    const bool leaves = seat->second.gone && seat->second.waiting == 0;
+    if (!leaves && !seat->second.viewer->broken()) {
       ++seat;
       continue;
     }
-    const auto gone = std::move(seat->second.gone);
-    seat = seats_.erase(seat);
-    gone();
+    const Seat left = std::move(seat->second);
+    ++seat;
+    leave(id);
+    if (left.gone) left.viewer->guard(left.gone);
   }
 }
 
 RoomInfo Room::info() {
   return {.seq = seq(), .hash = map_.hash(), .chunks = map_.chunk_count(), .users = seats_.size()};
+}
+
+RoomLoad Room::load() const {
+  return {.waiting_edits = line_.size(),
+          .oldest_wait_ms = line_.oldest_wait_ms(strand_->now_ms()),
+          .owed_chunks = publisher_.owed_chunks(),
+          .dirty_chunks = publisher_.dirty_chunks(),
+          .viewers = seats_.size()};
 }
 
 RoomFigures Room::figures() {
@@ -218,9 +292,9 @@ protocol::Result<StatesPicture> Room::states(std::uint64_t layer) const {
 
 void Room::close(const protocol::Bye& bye) {
   closed_ = bye.failure;
-  waiting_.clear();
-  waiting_points_ = 0;
+  line_.clear();
   publisher_.leave_all();
+  herald_.leave_all();
   for (auto& [id, seat] : std::exchange(seats_, {})) seat.viewer->end(bye);
 }
 

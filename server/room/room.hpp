@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,6 +15,10 @@
 #include "protocol/settings.hpp"
 #include "server/history/event.hpp"
 #include "server/mesh/figures.hpp"
+#include "server/room/authors.hpp"
+#include "server/room/guarded_viewer.hpp"
+#include "server/room/herald.hpp"
+#include "server/room/line.hpp"
 #include "server/room/meters.hpp"
 #include "server/room/publisher.hpp"
 #include "server/room/states_picture.hpp"
@@ -24,10 +27,6 @@
 #include "server/voxel/map.hpp"
 
 namespace earthwork::room {
-
-/// Centres of edits that wait to be applied, of all viewers together. A message that has one is
-/// much larger, so this bounds what a crowd of editors can make a map hold.
-inline constexpr std::size_t kMaxWaitingPoints = std::size_t{4} << 20;
 
 struct RoomInfo {
   std::uint64_t seq = 0, hash = 0;
@@ -49,11 +48,21 @@ struct MeshSnapshot {
   std::vector<RecordBytes> records;  ///< In order of their keys.
 };
 
+/// How busy a room is, for who watches the server.
+struct RoomLoad {
+  std::size_t waiting_edits = 0;    ///< In line.
+  std::int64_t oldest_wait_ms = 0;  ///< Of those, the one that came first; 0 when none waits.
+  std::size_t owed_chunks = 0;      ///< Waiting to be sent, of all viewers together.
+  std::size_t dirty_chunks = 0;     ///< Whose meshes are not up to date.
+  std::size_t viewers = 0;
+};
+
 /// name, settings, epoch and strand: any thread. Everything else: on the strand only, which also
 /// calls the viewers. Held by shared_ptr; a task on its strand keeps it alive.
 ///
 /// When its own work throws, out of memory say, map and events may no longer agree: it closes with
-/// `internal`, and the exception goes on to the strand.
+/// `internal`, and the exception goes on to the strand. A viewer that throws is told `end` and has
+/// left; nobody else notices.
 class Room : public std::enable_shared_from_this<Room> {
  public:
   /// An empty map. `settings` is valid. What it does is counted in `meters`.
@@ -74,8 +83,9 @@ class Room : public std::enable_shared_from_this<Room> {
                                                 protocol::User user);
   /// After it the viewer is not called again; its edits in line are applied all the same.
   void leave(ViewerId viewer);
-  /// Leaves once the viewer was told the numbers of all its edits in line, and then calls `gone`:
-  /// within the call when none waits. It is shown nothing more meanwhile.
+  /// Leaves once the viewer was told what became of all its edits in line, and then calls `gone`:
+  /// within the call when none waits. It is shown and told nothing else meanwhile, and is gone for
+  /// the others. Should the room close first, it is told `end` in place of `gone`.
   void leave_when_told(ViewerId viewer, std::function<void()> gone);
   /// Changes what the viewer is shown; parcels follow later, never from within the call. Fails
   /// with too_large for more than kMaxViewChunks.
@@ -86,23 +96,23 @@ class Room : public std::enable_shared_from_this<Room> {
   void heard(ViewerId viewer);
 
   /// Where the viewer points, for the others. Fails with out_of_range for a place beyond what an
-  /// edit may have. What comes faster than kCursorsPerSecond replaces what was not shown yet.
+  /// edit may have. Of what comes before the others are told, ten times a second, the last counts;
+  /// a cursor that is not said again for kCursorMs is hidden.
   [[nodiscard]] protocol::Result<void> point(ViewerId viewer, const protocol::Cursor& cursor);
   /// Tells the viewer all events from `from_seq` on, and those to come. Fails with out_of_range
   /// beyond the next seq. Asked again, it starts anew from there.
   [[nodiscard]] protocol::Result<void> follow(ViewerId viewer, std::uint64_t from_seq);
 
-  struct Command {
-    protocol::MessageId id = 0;
-    std::uint64_t author = 0;
-    protocol::Edit edit;
-  };
+  using Command = room::Command;
   /// Puts an edit in line. Fails when `check_edit` does, and with too_large when kMaxWaitingPoints
-  /// would be exceeded; then it has no number. Otherwise the viewer is told its number later, never
-  /// from within the call.
+  /// would be exceeded; then it has no number. Otherwise the viewer is told later, never from
+  /// within the call: its number, the one that it has already when the author's id was applied
+  /// before, or that it has none, by id_out_of_order or id_too_old. An author's edits come to their
+  /// turn in the order of submission, whichever viewers they come from.
   [[nodiscard]] protocol::Result<void> submit(ViewerId viewer, Command command);
 
   [[nodiscard]] RoomInfo info();
+  [[nodiscard]] RoomLoad load() const;
   /// Brings up to `budget` chunks' meshes up to date; true when all are.
   [[nodiscard]] bool refresh_meshes(std::size_t budget) { return publisher_.refresh(budget); }
   /// After `refresh_meshes` gave true in the same task.
@@ -117,22 +127,19 @@ class Room : public std::enable_shared_from_this<Room> {
 
  private:
   struct Seat {
-    std::shared_ptr<Viewer> viewer;
-    protocol::User user;
+    std::shared_ptr<GuardedViewer> viewer;
     std::size_t waiting = 0;     // edits in line
     std::vector<Reply> told;     // of this turn
     std::function<void()> gone;  // set: it leaves when none waits
   };
-  struct Waiting {
-    ViewerId viewer = 0;
-    Command command;
-  };
 
   void run(const std::function<void()>& task);
   void run_later(std::chrono::milliseconds delay, std::function<void()> task);
+  [[nodiscard]] Workplace workplace();
   void schedule_turn();
   void turn();
-  std::size_t apply_next();
+  [[nodiscard]] Reply decide(Command& command);
+  void apply(Command& command);
   void acknowledge();
   void let_go();
   [[nodiscard]] std::uint64_t seq() const { return events_.size(); }
@@ -146,8 +153,10 @@ class Room : public std::enable_shared_from_this<Room> {
   voxel::Map map_;
   Publisher publisher_;
   std::vector<history::Event> events_;  // event n at n - 1
-  std::deque<Waiting> waiting_;
-  std::size_t waiting_points_ = 0;  // of all that waits: at most kMaxWaitingPoints
+  Herald herald_;
+  Authors authors_;
+  Line line_;
+  std::size_t turn_chunks_ = 0;  // to be meshed again, of this turn, a chunk once an edit
   std::map<ViewerId, Seat> seats_;
   ViewerId last_viewer_ = 0;
   std::optional<RoomFigures> figures_;  // the last ones asked for

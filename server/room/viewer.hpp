@@ -1,6 +1,7 @@
 /// Who takes part in a map: what a room tells a session, and no more.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "server/room/mesh_record.hpp"
 
 namespace earthwork::room {
+
+/// Given when a viewer joins; never used twice in one room.
+using ViewerId = std::uint64_t;
 
 /// What is sent to a viewer at one go, all of it as of one seq: a group, then chunks that the
 /// viewer sees for the first time, then word that its view is complete. The records are shared,

@@ -47,10 +47,11 @@ struct ApiTest : testing::Test {
     };
     const auto room = atlas.find(map);
     const auto viewer = room->join(std::make_shared<Blind>(), {}).value().viewer;
-    for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {1, 0, edit}));
+    for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {++last_id, 0, edit}));
     context.run();
     room->leave(viewer);
   }
+  protocol::MessageId last_id = 0;
   static std::string header(const HttpResponse& response, const std::string& name) {
     for (const auto& [key, value] : response.headers)
       if (key == name) return value;
@@ -64,6 +65,7 @@ struct ApiTest : testing::Test {
     EXPECT_TRUE(body.at("detail").is_string());
   }
 
+  protocol::MessageId id = 0;  // of the last edit
   room::ManualContext context;
   room::Atlas atlas{[this] { return context.make_strand(); }};
   Workers workers{1};
@@ -144,13 +146,56 @@ TEST_F(ApiTest, AnswersOnlyToItsName) {
   auto asked = request("GET", "/api/maps");
   asked.host = "evil.example";
   is_problem(ask(asked), 403);
-  asked.host.reset();
-  is_problem(ask(asked), 403);
   asked.host = "localhost:8080";
   asked.origin = "http://evil.example";
   is_problem(ask(asked), 403);
   asked.origin = "http://localhost:8080";
   EXPECT_EQ(ask(asked).status, 200);
+}
+
+TEST_F(ApiTest, WantsExactlyOneHost) {
+  auto asked = request("GET", "/healthz");
+  for (const auto& host : {std::optional<std::string>(),
+                           std::optional<std::string>("localhost:8080, localhost:8080")}) {
+    asked.host = host;
+    const auto refused = ask(asked);
+    is_problem(refused, 400);
+    EXPECT_EQ(json::parse(refused.body).at("field"), "Host");
+  }
+}
+
+TEST_F(ApiTest, ATargetThatIsAUrlIsCheckedInPlaceOfTheHost) {
+  EXPECT_EQ(get("http://localhost:8080/healthz").body, "ok\n");
+  EXPECT_EQ(get("HTTP://127.0.0.1:8080").status, 200);
+  for (const char* target :
+       {"http://evil.example/healthz", "http://localhost:8081/", "http:///healthz",
+        "http://evil.example@localhost:8080/", "http://localhost:8080@evil.example/"})
+    is_problem(get(target), 403);
+  is_problem(get("https://localhost:8080/healthz"), 404);
+
+  auto asked = request("GET", "http://localhost:8080/healthz");
+  asked.host = "proxy.example";  // RFC 9112, 3.2.2: the target's is the one that counts
+  EXPECT_EQ(ask(asked).status, 200);
+  asked.origin = "http://evil.example";
+  is_problem(ask(asked), 403);
+}
+
+TEST_F(ApiTest, GivesMetrics) {
+  ASSERT_EQ(create(R"({"name":"a"})").status, 201);
+  ASSERT_EQ(create(R"({"name":"b"})").status, 201);
+  paint("a", {kSquare, kSquare});
+  const auto metrics = get("/metrics");
+  EXPECT_EQ(metrics.status, 200);
+  EXPECT_EQ(metrics.content_type, "text/plain; version=0.0.4; charset=utf-8");
+  EXPECT_NE(metrics.body.find("\nearthwork_maps 2\n"), std::string::npos) << metrics.body;
+  EXPECT_NE(metrics.body.find("\nearthwork_edits_total 2\n"), std::string::npos) << metrics.body;
+
+  EXPECT_EQ(ask(request("HEAD", "/metrics")).status, 200);
+  is_problem(ask(request("POST", "/metrics")), 405);
+  is_problem(get("/metrics/x"), 404);
+  auto foreign = request("GET", "/metrics");
+  foreign.host = "evil.example";
+  is_problem(ask(foreign), 403);
 }
 
 TEST_F(ApiTest, SaysWhichMethodsThereAre) {
@@ -173,7 +218,7 @@ TEST_F(ApiTest, KnowsNoOtherPath) {
   for (const char* target :
        {"/api", "/api/maps/", "/api/maps/b", "/api/maps/a/", "/api/maps/a/other",
         "/api/maps/a/figures/x", "/../etc/passwd", "/%2e%2e/etc/passwd", "/api/maps/..%2fa",
-        "/metrics", "/favicon.ico", "/api/maps/a/export.glb/", "nonsense"})
+        "/favicon.ico", "/api/maps/a/export.glb/", "nonsense"})
     is_problem(get(target), 404);
   is_problem(get("/ws"), 426);
 }

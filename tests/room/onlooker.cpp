@@ -27,6 +27,18 @@ Rim rim_of(const std::map<ChunkKey, ChunkRecord>& chunks, const ChunkKey& key, s
   return rim;
 }
 
+/// The messages of this type.
+template <class Message>
+std::vector<Message> heard(const std::vector<Talk>& talks) {
+  std::vector<Message> messages;
+  for (const Talk& talk : talks)
+    for (const SharedText& text : talk.messages) {
+      const auto message = protocol::parse_server_message(*text).value();
+      if (const auto* one = std::get_if<Message>(&message)) messages.push_back(*one);
+    }
+  return messages;
+}
+
 std::string text(const ChunkKey& key) {
   return "chunk " + std::to_string(key.x) + ", " + std::to_string(key.y);
 }
@@ -59,6 +71,12 @@ void Onlooker::deliver(Parcel parcel) {
   }
   parcels.push_back(std::move(parcel));
 }
+
+std::vector<protocol::Presence> Onlooker::people() const {
+  return heard<protocol::Presence>(talks);
+}
+
+std::vector<protocol::Event> Onlooker::events() const { return heard<protocol::Event>(talks); }
 
 std::uint64_t Onlooker::mesh_hash() const {
   std::uint64_t sum = 0;

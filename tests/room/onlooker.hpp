@@ -24,6 +24,9 @@ class Onlooker final : public Viewer {
   [[nodiscard]] std::size_t grouped() const;
   [[nodiscard]] std::size_t first_seen() const;
   void forget_parcels() { parcels.clear(); }
+  /// Of all talks, in order.
+  [[nodiscard]] std::vector<protocol::Presence> people() const;
+  [[nodiscard]] std::vector<protocol::Event> events() const;
 
   std::vector<protocol::Applied> acks;
   std::vector<protocol::Rejected> refusals;

@@ -13,15 +13,17 @@ void must(const protocol::Result<void>& result) {
 }  // namespace
 
 World::World(protocol::MapSettings settings) {
-  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, context.make_strand(),
-                                std::make_shared<Meters>());
+  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, context.make_strand(), meters);
 }
 
-World::Guest World::enter(const char* name) {
+World::Guest World::enter(const char* name, std::uint64_t author) {
   Guest guest;
-  guest.id = room->join(guest.eyes, {"0123456789abcdef", name, "#102030", "0000000000000007"})
-                 .value()
-                 .viewer;
+  const std::uint64_t session = ++last_session;
+  guest.author = author != 0 ? author : session;
+  guest.id =
+      room->join(guest.eyes, {protocol::hex(session), name, "#102030", protocol::hex(guest.author)})
+          .value()
+          .viewer;
   return guest;
 }
 
@@ -31,7 +33,7 @@ void World::look(Guest& guest, const protocol::View& view) {
 }
 
 protocol::Result<void> World::submit(Guest& guest, protocol::Edit edit) {
-  return room->submit(guest.id, {++guest.last_message, 7, std::move(edit)});
+  return room->submit(guest.id, {++guest.last_message, guest.author, std::move(edit)});
 }
 
 void World::edit(Guest& guest, protocol::Edit edit) {

@@ -17,9 +17,11 @@ struct World {
   struct Guest {
     std::shared_ptr<Onlooker> eyes = std::make_shared<Onlooker>();
     ViewerId id = 0;
+    std::uint64_t author = 0;
     protocol::MessageId last_message = 0;
   };
-  Guest enter(const char* name = "ann");
+  /// Under an author and a session of its own: 7, 8, 9 ...; or the author that is given.
+  Guest enter(const char* name = "ann", std::uint64_t author = 0);
   /// Throws when the view is refused; then the guest takes all that comes.
   void look(Guest& guest, const protocol::View& view);
   protocol::Result<void> submit(Guest& guest, protocol::Edit edit);
@@ -31,7 +33,9 @@ struct World {
   std::uint64_t mesh_hash();
 
   ManualContext context;
+  std::shared_ptr<Meters> meters = std::make_shared<Meters>();
   std::shared_ptr<Room> room;
+  std::uint64_t last_session = 6;
 };
 
 }  // namespace earthwork::room

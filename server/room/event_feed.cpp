@@ -1,0 +1,56 @@
+#include "server/room/event_feed.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "protocol/chunk_record.hpp"
+
+namespace earthwork::room {
+namespace {
+
+// Of the texts that were written so much is kept for the next follower. Those who follow live are
+// told the same within one turn; who reads the past rarely meets another at the same place.
+constexpr std::size_t kKeptBytes = std::size_t{1} << 20;
+
+}  // namespace
+
+protocol::Event to_protocol(const history::Event& event) {
+  return {.seq = event.seq,
+          .time_ms = event.time_ms,
+          .author = protocol::hex(event.author),
+          .edit = event.edit,
+          .hash = protocol::hex(event.hash)};
+}
+
+void EventFeed::leave(ViewerId id) {
+  next_.erase(id);
+  if (!next_.empty()) return;
+  texts_.clear();
+  texts_bytes_ = 0;
+}
+
+void EventFeed::tell(ViewerId id, std::span<const history::Event> events, std::size_t bytes,
+                     std::vector<SharedText>& out) {
+  const auto found = next_.find(id);
+  if (found == next_.end()) return;
+  std::uint64_t& next = found->second;
+  for (; next <= events.size(); ++next) {
+    SharedText text = text_of(events[next - 1]);
+    if (text->size() > bytes && !out.empty()) return;
+    bytes -= std::min(bytes, text->size());
+    out.push_back(std::move(text));
+  }
+}
+
+SharedText EventFeed::text_of(const history::Event& event) {
+  if (const auto found = texts_.find(event.seq); found != texts_.end()) return found->second;
+  auto text = std::make_shared<const std::string>(protocol::write(to_protocol(event)));
+  texts_.emplace(event.seq, text);
+  texts_bytes_ += text->size();
+  for (; texts_bytes_ > kKeptBytes; texts_.erase(texts_.begin()))
+    texts_bytes_ -= texts_.begin()->second->size();
+  return text;
+}
+
+}  // namespace earthwork::room

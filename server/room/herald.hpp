@@ -1,0 +1,68 @@
+/// Tells the viewers of a map about people and events: to each one talk at a time, and what is new
+/// once it was heard.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "protocol/messages.hpp"
+#include "server/history/event.hpp"
+#include "server/room/event_feed.hpp"
+#include "server/room/presence_board.hpp"
+#include "server/room/strand.hpp"
+#include "server/room/viewer.hpp"
+
+namespace earthwork::room {
+
+/// On the strand of the room whose part it is. It runs a timer only for a tenth of a second after
+/// people changed, and while there are cursors to hide.
+class Herald {
+ public:
+  /// Runs a task on that strand after a delay, or not at all when the room is gone by then.
+  using Later = std::function<void(std::chrono::milliseconds delay, std::function<void()> task)>;
+
+  /// `events` is all that the map accepted, event n at n - 1. It and `clock` outlive the herald.
+  Herald(const std::vector<history::Event>& events, const Strand& clock, Later later);
+
+  /// `viewer` stays until it leaves. Its user is told to the others soon.
+  void enter(ViewerId id, Viewer& viewer, protocol::User user);
+  /// After it the viewer is not called again, and is nobody here.
+  void leave(ViewerId id);
+  void leave_all();
+  /// Who is listed, with whoever entered last.
+  [[nodiscard]] std::vector<protocol::User> users() const { return board_.users(); }
+
+  /// None of these calls a viewer, apart from `heard`, and none does anything for nobody.
+  void point(ViewerId id, const protocol::Cursor& cursor);
+  /// From `from_seq` on, at least 1 and at most the next event's.
+  void follow(ViewerId id, std::uint64_t from_seq);
+  /// The viewer takes the next talk: from within the call, if there is one.
+  void heard(ViewerId id);
+
+  /// There may be new events: tells them to the viewers that follow and hear.
+  void tell_events();
+
+ private:
+  struct Listener {
+    Viewer* viewer = nullptr;
+    bool hears = true;  // the last talk was heard
+  };
+
+  void talk_to(ViewerId id, Listener& listener);
+  void people_changed();
+  void tick();
+  void hide_cursors_after(std::chrono::milliseconds delay);
+
+  const std::vector<history::Event>& events_;
+  const Strand& clock_;
+  const Later later_;
+  PresenceBoard board_;
+  EventFeed feed_;
+  std::map<ViewerId, Listener> listeners_;
+  bool ticking_ = false, hiding_ = false;  // a timer runs
+};
+
+}  // namespace earthwork::room
