@@ -102,7 +102,8 @@ class Delta {
     const auto start_normal = static_cast<StartNormal>(head >> 3 & 3);
     const auto end_normal = static_cast<EndNormal>(head >> 5 & 3);
     const bool given = head & 1;
-    if (head >= kSectionHeadEnd || (!given && sections_.empty()) ||
+    if (head >= kSectionHeadEnd || start_normal > StartNormal::next_copy ||
+        end_normal > EndNormal::next_copy || (!given && sections_.empty()) ||
         (given && start_normal == StartNormal::goes_on))
       return refuse("sections", "one starts nowhere, or has no head");
     OpenSection section;

@@ -2,15 +2,16 @@
 // as protocol/README.md, "Chunk record", has it; whatever does not follow it throws BadFrame.
 const FULL = 1;
 const REMOVED = 2;
+const DELTA = 3;
 const MIN_LENGTH = 22;
-const MAX_LENGTH = 1048576;
-const MAX_VERTICES = 65535;
-const COORDINATE_END = 2129920;
+export const MAX_LENGTH = 1048576;
+export const MAX_VERTICES = 65535;
+export const COORDINATE_END = 2129920;
 const MAX_CHUNK_COORDINATE = 125072;
 
 export class BadFrame extends Error {}
 
-function expect(condition, what) {
+export function expect(condition, what) {
   if (!condition) throw new BadFrame(what);
 }
 
@@ -29,6 +30,11 @@ export class Reader {
   i32() { return this.#view.getInt32(this.#skip(4), true); }
   u32() { return this.#view.getUint32(this.#skip(4), true); }
   u64() { return this.#view.getBigUint64(this.#skip(8), true); }
+
+  rest() {
+    const length = this.left;
+    return Buffer.from(this.#view.buffer, this.#view.byteOffset + this.#skip(length), length);
+  }
 
   // Seven bits a byte, the lowest first; 32 bits at most, in as few bytes as it can.
   varint() {
@@ -54,7 +60,7 @@ export class Reader {
   }
 }
 
-function unzigzag(value) {
+export function unzigzag(value) {
   return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
 }
 
@@ -122,17 +128,23 @@ function readMesh(reader) {
 }
 
 // One record without its length: {layer, x, y, z, revision} and, unless the chunk was removed,
-// its mesh {xs, ys, indices, sections}.
+// its mesh {xs, ys, indices, sections}; or, of a delta, {baseRevision, operations}, see deltas.mjs.
 export function readRecord(bytes) {
   const reader = new Reader(bytes);
   const kind = reader.u8();
-  expect(kind === FULL || kind === REMOVED, `${kind} is no kind of record`);
+  expect([FULL, REMOVED, DELTA].includes(kind), `${kind} is no kind of record`);
   const layer = reader.u8();
   expect(layer < 16, `there is no layer ${layer}`);
   const [x, y, z] = [reader.i32(), reader.i32(), reader.i32()];
   expect([x, y, z].every((at) => Math.abs(at) <= MAX_CHUNK_COORDINATE), `chunk ${x}, ${y}, ${z}`);
   const record = { layer, x, y, z, revision: Number(reader.u64()) };
   if (kind === FULL) record.mesh = readMesh(reader);
+  if (kind === DELTA) {
+    const back = reader.varint();
+    expect(back > 0 && back <= record.revision, 'a delta has no base before it');
+    record.baseRevision = record.revision - back;
+    record.operations = Buffer.from(reader.rest());  // a copy, for the stream's bytes go
+  }
   expect(reader.left === 0, 'a record has bytes left over');
   return record;
 }

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
+import { applyDelta } from './deltas.mjs';
 import { chunkMeshHash, hashTerm, twiceArea } from './mesh_hash.mjs';
 import { BadFrame, Reader, readRecord, RecordStream } from './records.mjs';
 import { Scene } from './scene.mjs';
@@ -91,6 +92,80 @@ test('a record of an impossible length is refused before its bytes come', () => 
     head.writeUInt32LE(length);
     assert.throws(() => new RecordStream().push(head), BadFrame, `${length}`);
   }
+});
+
+// The square with its vertices in order, as the delta's base has it.
+function orderedSquare() {
+  const record = square();
+  const { xs, ys, sections } = record.mesh;
+  for (const values of [xs, ys]) [values[2], values[3]] = [values[3], values[2]];
+  record.mesh.indices = Int32Array.from([0, 1, 2, 2, 1, 3]);
+  const moved = [0, 1, 3, 2];
+  for (const section of sections)
+    [section.start, section.end] = [moved[section.start], moved[section.end]];
+  return record;
+}
+
+const cutting = () => readRecord(example('cut square delta').subarray(4));
+
+test('a delta cuts the corner off the square, as the README has it', () => {
+  const { revision, mesh, ...key } = applyDelta(orderedSquare(), cutting());
+  assert.deepEqual(key, { layer: 2, x: -1, y: 3, z: 0 });
+  assert.equal(revision, 300);
+  assert.deepEqual([...mesh.xs], [49152, 81920, 81920, 49152, 80000]);
+  assert.deepEqual([...mesh.ys], [49152, 49152, 80000, 81920, 81920]);
+  assert.deepEqual([...mesh.indices], [0, 1, 2, 0, 2, 3, 3, 2, 4]);
+  assert.deepEqual(mesh.sections.map(({ start, end }) => [start, end]),
+    [[0, 1], [1, 2], [2, 4], [4, 3], [3, 0]]);
+  assert.deepEqual(mesh.sections[2].startNormal, [32767, 0]);
+  assert.deepEqual(mesh.sections[2].endNormal, [0, 32767]);
+  assert.equal(chunkMeshHash(mesh), 0x032f0e22ce189eb1n);
+});
+
+test('a delta with any one byte changed, or cut, is read or refused, and nothing else', () => {
+  const delta = cutting();
+  let refused = 0;
+  const apply = (operations) => {
+    try {
+      applyDelta(orderedSquare(), { ...delta, operations });
+    } catch (error) {
+      assert.ok(error instanceof BadFrame, error.stack);
+      ++refused;
+    }
+  };
+  for (let at = 0; at < delta.operations.length; ++at) {
+    apply(delta.operations.subarray(0, at));
+    for (let value = 0; value < 256; ++value) {
+      const changed = Buffer.from(delta.operations);
+      changed[at] = value;
+      apply(changed);
+    }
+  }
+  assert.ok(refused > 5000, `only ${refused} were refused`);
+});
+
+test('a delta changes what its chunk was, in a group alone', () => {
+  const begin = Buffer.from(example('group begin'));
+  begin.writeBigUInt64LE(300n, 10);
+  const end = Buffer.from(example('group end'));
+  end.writeBigUInt64LE(300n, 2);
+  const delta = asRecords(example('cut square delta'));
+  const looking = (n) => {
+    const scene = new Scene(joined);
+    scene.look({ n });
+    return scene;
+  };
+  const scene = looking(3);
+  scene.chunks.set('2/-1/3/0', orderedSquare());
+  for (const message of [begin, delta]) assert.deepEqual(scene.receive(message), []);
+  assert.equal(scene.receive(end).length, 1);
+  assert.equal(scene.chunks.get('2/-1/3/0').revision, 300);
+  assert.throws(() => scene.receive(delta), BadFrame);
+
+  const without = looking(3);
+  assert.throws(() => [begin, delta, end].forEach((message) => without.receive(message)), BadFrame);
+  const later = looking(4);
+  assert.deepEqual([begin, delta, end].flatMap((message) => later.receive(message)), []);
 });
 
 test('a group is one picture, seen at its end', () => {

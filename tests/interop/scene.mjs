@@ -1,5 +1,6 @@
 // The meshes that a viewer holds, put together from the binary messages alone. A group's records
 // are applied together at its end, so what is held between two messages is one picture of the map.
+import { applyDelta } from './deltas.mjs';
 import { meshHash } from './mesh_hash.mjs';
 import { BadFrame, Reader, RecordStream } from './records.mjs';
 
@@ -78,29 +79,42 @@ export class Scene {
   #begin(reader) {
     const epoch = reader.u64().toString(16).padStart(16, '0');
     const seq = Number(reader.u64());
-    reader.u32();  // the view's n; a record says by itself whether it lies in the view of now
+    const view = reader.u32();  // a record says by itself whether it lies in the view of now
     if (this.#group || reader.left > 0) throw new BadFrame('no begin of a group');
     if (epoch !== this.#joined.epoch) throw new BadFrame('a group of another epoch');
-    this.#group = { seq, records: [] };
+    this.#group = { seq, view, records: [] };
     return [];
   }
 
   #end(reader) {
     const seq = Number(reader.u64());
     if (this.#group?.seq !== seq || reader.left > 0) throw new BadFrame('no end of a group');
-    const { records } = this.#group;
+    const { records, view } = this.#group;
     this.#group = undefined;
     this.seq = seq;
-    return this.#apply(records);
+    return this.#apply(records, view);
   }
 
-  #apply(records) {
-    const seen = records.filter((record) => this.#sees(record));
-    for (const record of seen) {
-      if (record.mesh) this.chunks.set(keyOf(record), record);
-      else this.chunks.delete(keyOf(record));
+  // `view` is the n of the view that a group belongs to; none outside groups.
+  #apply(records, view) {
+    const seen = [];
+    for (const record of records.filter((any) => this.#sees(any))) {
+      const whole = record.operations ? this.#whole(record, view) : record;
+      if (!whole) continue;
+      if (whole.mesh) this.chunks.set(keyOf(whole), whole);
+      else this.chunks.delete(keyOf(whole));
+      seen.push(whole);
     }
     return seen;
+  }
+
+  // The chunk's record after `delta`. A delta of an earlier view may be for a chunk that was let go
+  // since: then nothing, and all of it follows.
+  #whole(delta, view) {
+    if (view === undefined) throw new BadFrame('a delta outside a group');
+    const base = this.chunks.get(keyOf(delta));
+    if (base?.revision !== delta.baseRevision && view !== this.view.n) return undefined;
+    return applyDelta(base, delta);
   }
 
   get #everywhere() {

@@ -56,6 +56,17 @@ TEST(Readme, ShowsTheBytesOfRecords) {
   EXPECT_NE(readme().find(term), std::string::npos) << term;
 }
 
+TEST(Readme, ShowsTheBytesOfADelta) {
+  ChunkRecord cut = record_of(cut_square_mesh());
+  cut.revision = 300;
+  std::string delta;
+  ASSERT_TRUE(encode_delta(encoded(record_of(ordered_square_mesh())), encoded(cut), delta));
+  EXPECT_EQ(bytes("hex cut square delta"), hex_dump(delta));
+  EXPECT_EQ(*apply_delta(ordered_square_mesh(), *decode_delta(bytes_of(delta))), cut);
+  const std::string hash = hex(mesh_hash(cut_square_mesh()));
+  EXPECT_NE(readme().find(hash), std::string::npos) << hash;
+}
+
 TEST(Readme, ShowsTheBytesOfAGroup) {
   const GroupBegin begin{.epoch = 0xfedcba9876543210, .seq = 258, .view = 3};
   EXPECT_EQ(bytes("hex group begin"), hex_dump(encode(begin)));

@@ -1,5 +1,7 @@
 #include "tests/protocol/samples.hpp"
 
+#include <utility>
+
 namespace earthwork::protocol {
 
 ChunkMesh square_mesh() {
@@ -9,6 +11,28 @@ ChunkMesh square_mesh() {
       .vertices = {{low, low}, {high, low}, {high, high}, {low, high}},
       .triangles = {0, 1, 2, 0, 2, 3},
       .sections = {{0, 1, down, down}, {1, 2, right, right}, {2, 3, up, up}, {3, 0, left, left}}};
+}
+
+ChunkMesh ordered_square_mesh() {
+  ChunkMesh mesh = square_mesh();
+  std::swap(mesh.vertices[2], mesh.vertices[3]);
+  mesh.triangles = {0, 1, 2, 2, 1, 3};
+  for (WallSection& section : mesh.sections)
+    for (std::uint16_t* end : {&section.a, &section.b})
+      if (*end >= 2) *end = static_cast<std::uint16_t>(5 - *end);
+  return mesh;
+}
+
+ChunkMesh cut_square_mesh() {
+  constexpr MeshNormal down{0, -32767}, right{32767, 0}, up{0, 32767}, left{-32767, 0};
+  return {
+      .vertices = {{49152, 49152}, {81920, 49152}, {81920, 80000}, {49152, 81920}, {80000, 81920}},
+      .triangles = {0, 1, 2, 0, 2, 3, 3, 2, 4},
+      .sections = {{0, 1, down, down},
+                   {1, 2, right, right},
+                   {2, 4, right, up},
+                   {4, 3, up, up},
+                   {3, 0, left, left}}};
 }
 
 ChunkMesh bend_mesh() {
