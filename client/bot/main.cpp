@@ -9,6 +9,7 @@
 #include <string>
 
 #include "client/bot/flag_value.hpp"
+#include "client/bot/load_command.hpp"
 #include "client/bot/run_command.hpp"
 #include "client/bot/trace_command.hpp"
 #include "client/bot/watch_command.hpp"
@@ -23,8 +24,9 @@ namespace protocol = earthwork::protocol;
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 the work failed, was cut short or was refused in part, 2 wrong usage "
     "or nothing to talk to.";
-constexpr double kMaxSeconds = 1e9, kMaxRate = 1e9;
+constexpr double kMaxSeconds = 1e9, kMaxRate = 1e9, kMaxLength = 1e12;
 constexpr std::size_t kMaxWindow = 4096;
+constexpr std::uint64_t kMaxCrowd = 100'000, kMaxThreads = 64, kMaxSeed = 1'000'000'000;
 
 CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
   return {[=](const std::string& text) { return check_whole(text, min, max); },
@@ -122,6 +124,50 @@ void add_watch(CLI::App& app, WatchCommandOptions& options) {
       kExitCodes);
 }
 
+void add_load(CLI::App& app, LoadOptions& options) {
+  CLI::App& load = *app.add_subcommand("load", "Many editors and viewers at once");
+  add_target(load, options);
+  const auto count = [&](const char* flag, std::size_t& value, const char* what) {
+    return load.add_option(flag, value, what)->check(whole(0, kMaxCrowd))->capture_default_str();
+  };
+  count("--editors", options.editors, "That paint circles along walks drawn by lot")->required();
+  count("--viewers", options.viewers, "That watch all of the map")->required();
+  load.add_option("--seconds", options.seconds, "How long is painted")
+      ->required()
+      ->check(number(1e-3, kMaxSeconds));
+  load.add_option("--rate", options.rate,
+                  "Edits a second of each editor; without it 64 are without an answer, always")
+      ->check(number(1e-3, kMaxRate));
+  load.add_option("--radius", options.radius, "Of the circles, map units")
+      ->check(number(1e-6, kMaxLength))
+      ->capture_default_str();
+  load.add_option("--area", options.area, "The side of the square that is painted on, map units")
+      ->check(number(1e-6, kMaxLength))
+      ->capture_default_str();
+  count("--slow", options.slow, "Of the viewers, that read 1 KB a second");
+  count("--stalled", options.stalled,
+        "Of the viewers, that read nothing for the first two thirds, a minute at most");
+  count("--flaky", options.flaky, "Of the viewers, that cut and come back at random moments");
+  load.add_option("--threads", options.threads, "For the connections")
+      ->check(whole(1, kMaxThreads))
+      ->capture_default_str();
+  load.add_flag("--create", options.create,
+                "Make the map, with default settings, if there is none");
+  load.add_option("--seed", options.seed, "Of what is drawn by lot")
+      ->check(whole(0, kMaxSeed))
+      ->capture_default_str();
+  load.footer(
+      std::string(
+          "At the end painting stops, all read at full speed until they show the last edit, and "
+          "each scene is compared with the server's mesh_hash: 0 only if all agree and every edit "
+          "was applied. Nobody else should paint on the map meanwhile. Prints one line of figures: "
+          "edits, frames and bytes, latencies from sending to answer (ack_ms) and to picture "
+          "(view_ms), the bytes of the voxel data that the edits stand for: of each chunk with a "
+          "changed voxel, a bit a voxel and 6 bytes a crossing. When the generator itself was late "
+          "by more than 1 ms or more than 80 % busy, it says so.\n") +
+      kExitCodes);
+}
+
 /// A stream that was closed for this program must not become a socket or a file of its own: what
 /// is printed would land there. A file takes the first free place; open for reading, it refuses
 /// what is printed.
@@ -141,10 +187,12 @@ int run_program(int argc, char** argv) {
   RunOptions run;
   TraceOptions trace;
   WatchCommandOptions watch;
+  LoadOptions load;
   bool invert = false;
   add_run(app, run);
   add_trace(app, trace, invert);
   add_watch(app, watch);
+  add_load(app, load);
   for (CLI::App* command : app.get_subcommands({}))
     command->set_version_flag("--version", std::string("earthwork-bot ") + EARTHWORK_VERSION);
   try {
@@ -155,11 +203,12 @@ int run_program(int argc, char** argv) {
     return kUsage;
   }
   if (app.get_subcommands().empty()) {
-    std::cerr << "earthwork-bot: run, trace or watch? (--help tells more)\n";
+    std::cerr << "earthwork-bot: run, trace, watch or load? (--help tells more)\n";
     return kUsage;
   }
   if (app.got_subcommand("run")) return run_command(run, std::cout, std::cerr);
   if (app.got_subcommand("watch")) return watch_command(watch, std::cout, std::cerr);
+  if (app.got_subcommand("load")) return load_command(load, std::cout, std::cerr);
   trace.ink = invert ? Ink::light : Ink::dark;
   return trace_command(trace, std::cout, std::cerr);
 }
