@@ -11,21 +11,30 @@ BufferedSocket::BufferedSocket(boost::asio::ip::tcp::socket socket)
 }
 
 BufferedSocket::Error BufferedSocket::send(std::string_view bytes) {
+  assert(flushed());
   Error error;
-  if (!flushed()) {
-    const std::string_view before = std::string_view(waiting_).substr(left_);
-    const std::size_t sent = socket_.write_some(boost::asio::buffer(before), error);
-    take_back(sent);
-  }
-  std::size_t sent = 0;
-  if (flushed() && !error && !bytes.empty()) {
-    sent = socket_.write_some(boost::asio::buffer(bytes), error);
-    if (sent > 0) last_byte_ = Clock::now();
-  }
-  keep(bytes.substr(sent));
+  keep(bytes.substr(write(bytes, error)));
+  return error;
+}
+
+BufferedSocket::Error BufferedSocket::flush() {
+  Error error;
+  if (flushed()) return error;
+  left_ += write(std::string_view(waiting_).substr(left_), error);
+  if (!flushed()) return error;
+  std::string().swap(waiting_);
+  left_ = 0;
+  flushed_.cancel();
+  return error;
+}
+
+std::size_t BufferedSocket::write(std::string_view bytes, Error& error) {
+  if (bytes.empty()) return 0;
+  const std::size_t count = socket_.write_some(boost::asio::buffer(bytes), error);
+  if (count > 0) last_byte_ = Clock::now();
   if (error == boost::asio::error::would_block || error == boost::asio::error::try_again)
     error.clear();
-  return error;
+  return count;
 }
 
 BufferedSocket::Error BufferedSocket::send_ping(std::string_view ping) {
@@ -41,16 +50,6 @@ void BufferedSocket::keep(std::string_view bytes) {
   // Exactly what is needed: a viewer that does not read keeps it for long.
   waiting_.reserve(waiting_.size() + bytes.size());
   waiting_ += bytes;
-}
-
-void BufferedSocket::take_back(std::size_t bytes) {
-  if (bytes == 0) return;
-  last_byte_ = Clock::now();
-  left_ += bytes;
-  if (!flushed()) return;
-  std::string().swap(waiting_);
-  left_ = 0;
-  flushed_.cancel();
 }
 
 void BufferedSocket::close() {

@@ -41,10 +41,10 @@ class BufferedSocket {
 
   /// Nothing waits to leave.
   [[nodiscard]] bool flushed() const { return left_ == waiting_.size(); }
-  /// Sends what the socket takes now of what waits and then of `bytes`; the rest waits.
+  /// Sends what the socket takes now of `bytes`; the rest waits. Only when nothing waits.
   [[nodiscard]] Error send(std::string_view bytes);
-  /// The same without new bytes.
-  [[nodiscard]] Error flush() { return send({}); }
+  /// Sends what the socket takes now of what waits.
+  [[nodiscard]] Error flush();
   /// A ping: its leaving is no sign of life, only the answer to it is. Only when nothing waits.
   [[nodiscard]] Error send_ping(std::string_view ping);
   /// `handler(error)` when the socket takes more.
@@ -65,13 +65,13 @@ class BufferedSocket {
 
  private:
   void keep(std::string_view bytes);
-  void take_back(std::size_t bytes);
+  [[nodiscard]] std::size_t write(std::string_view bytes, Error& error);
 
   boost::asio::ip::tcp::socket socket_;
   boost::asio::steady_timer flushed_;  // never due; cancelled when all that waited has left
   std::function<void()> on_output_ = [] {};
   std::string waiting_;
-  std::size_t left_ = 0;  // of waiting_
+  std::size_t left_ = 0;  // of waiting_, which is empty when all has
   Clock::time_point last_byte_ = Clock::now();
 };
 

@@ -35,6 +35,7 @@ constexpr int kSendBufferBytes = 64 * 1024, kSendLowWaterBytes = 16 * 1024;
 
 // Messages for one call. Beyond it, what is said later may still go before what waits.
 constexpr std::size_t kEnoughBytes = 32 * 1024;
+constexpr std::size_t kKeptBufferBytes = 4096;
 
 /// A whole number among TCP's socket options, as Asio takes options.
 struct TcpOption {
@@ -102,6 +103,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   void wake();
   awaitable<void> read();
   awaitable<bool> read_message();
+  void receive();
   awaitable<void> say_farewell();
   awaitable<void> watch();
   BufferedSocket& socket() { return ws_.next_layer(); }
@@ -122,7 +124,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   const std::shared_ptr<Conversation> conversation_;
   Clock::time_point opened_ = Clock::now();
   Clock::time_point bye_at_ = Clock::time_point::max();
-  bool flushing_soon_ = false;
+  bool receiving_ = false, flushing_soon_ = false;
   bool stuck_ = false;  // until the socket takes more
 };
 
@@ -169,6 +171,7 @@ awaitable<void> WebSocketSession::converse(std::string handshake) {
   if (error) co_return;
   const Presence presence(meters_);
   opened_ = Clock::now();
+  flush_soon();  // bye may have been said already
   co_await (read() || say_farewell() || watch());
 }
 
@@ -181,15 +184,23 @@ awaitable<void> WebSocketSession::read() {
 
     if (!co_await read_message()) break;
     if (conversation_->ending()) continue;
-    if (ws_.got_binary()) {
-      conversation_->refuse_binary();
-    } else {
-      const auto bytes = buffer_.cdata();
-      conversation_->receive({static_cast<const char*>(bytes.data()), bytes.size()});
-    }
-    buffer_.consume(buffer_.size());
+    receiving_ = true;
+    receive();
+    receiving_ = false;
   }
   socket().close();
+}
+
+void WebSocketSession::receive() {
+  if (ws_.got_binary()) {
+    conversation_->refuse_binary();
+  } else {
+    const auto bytes = buffer_.cdata();
+    conversation_->receive({static_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  buffer_.consume(buffer_.size());
+  // Most messages are short: who has sent a long one does not keep the memory for it.
+  if (buffer_.capacity() > kKeptBufferBytes) buffer_.shrink_to_fit();
 }
 
 /// One message into the buffer, or bye when it is too long; false when the peer is gone.
@@ -216,12 +227,15 @@ awaitable<void> WebSocketSession::say_farewell() {
   socket().close();
 }
 
+/// What a room brings leaves at once. Answers to what the client has sent in one go leave in one
+/// go.
 void WebSocketSession::wake() {
-  readable_.notify();
-  flush_soon();
+  if (receiving_)
+    flush_soon();
+  else
+    flush();
 }
 
-/// What comes in one go, answers and meshes say, leaves in one go.
 void WebSocketSession::flush_soon() {
   if (flushing_soon_ || stuck_) return;
   flushing_soon_ = true;
@@ -230,8 +244,7 @@ void WebSocketSession::flush_soon() {
 
 void WebSocketSession::flush() {
   flushing_soon_ = false;
-  if (stuck_ || !socket().socket().is_open()) return;
-  if (send_more()) socket().close();
+  if (!stuck_ && socket().socket().is_open() && send_more()) socket().close();
   if (!socket().socket().is_open() || conversation_->ended()) said_all_.notify();
   // What was not read while too much waited may be read now.
   readable_.notify();
@@ -242,16 +255,18 @@ beast::error_code WebSocketSession::send_more() {
   // quick to read has no memory for it.
   static thread_local std::string messages;
   messages.clear();
-  if (socket().flushed() && ws_.is_open()) conversation_->take_output(messages, kEnoughBytes);
-  const bool enough = messages.size() >= kEnoughBytes;
-
-  if (const auto error = socket().send(messages)) return error;
+  if (const auto error = socket().flush()) return error;
+  if (socket().flushed()) {
+    conversation_->written();
+    if (ws_.is_open()) conversation_->take_output(messages, kEnoughBytes);
+    if (const auto error = socket().send(messages)) return error;
+  }
   if (!socket().flushed()) {
     wait_writable();
     return {};
   }
   conversation_->written();
-  if (enough) flush_soon();
+  if (messages.size() >= kEnoughBytes) flush_soon();
   return {};
 }
 
