@@ -11,7 +11,7 @@ class Wire {
   // Ends the connections that there are.
   cut() { for (const { client } of this.#connections) client.destroy(); }
 
-  // Ends them once the server has said so many bytes more.
+  // Ends them once the server has said so many bytes more, a whole number.
   cutAfter(bytes) { for (const one of this.#connections) one.left = bytes; }
 
   // Ends them, and new ones too until it is up.
