@@ -48,7 +48,10 @@ void check(std::span<const std::byte> input) {
     input = input.subspan(2 + size);
   }
   for (const FrameEvent& event : events)
-    if (const auto* record = std::get_if<ChunkRecord>(&event)) check(*record);
+    if (const auto* record = std::get_if<ChunkRecord>(&event))
+      check(*record);
+    else if (const auto* delta = std::get_if<ChunkDelta>(&event))
+      expect(delta->base_revision < delta->revision, "a delta goes forward");
 }
 
 }  // namespace
