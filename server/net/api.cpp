@@ -95,14 +95,23 @@ protocol::Result<NewMap> read_new_map(std::string_view body) {
 }  // namespace
 
 Api::Api(room::Atlas& atlas, Workers& workers, Access access)
-    : atlas_(atlas), workers_(workers), access_(std::move(access)) {}
+    : atlas_(atlas),
+      workers_(workers),
+      access_(std::move(access)) {}
 
-protocol::Result<void> Api::check_access(const HttpRequest& request) const {
-  return access_.check(request.host, request.origin);
+std::optional<HttpResponse> Api::refuse_access(const HttpRequest& request) const {
+  // Of a header sent twice the values come with a comma between them, which no name has.
+  if (!request.host || request.host->find(',') != std::string::npos)
+    return problem(400, {Code::bad_field, "Host: exactly one is needed", "Host"});
+  const auto target = parse_target(request.target);
+  const auto& host = target && target->authority ? target->authority : request.host;
+  if (auto checked = access_.check(host, request.origin); !checked)
+    return problem(403, checked.error());
+  return std::nullopt;
 }
 
 void Api::handle(HttpRequest request, Respond respond) const {
-  if (auto checked = check_access(request); !checked) return respond(problem(403, checked.error()));
+  if (auto refusal = refuse_access(request)) return respond(std::move(*refusal));
   const auto target = parse_target(request.target);
   if (!target) return respond(not_found(request.target));
 

@@ -1,6 +1,8 @@
 /// The HTTP interface: from a request to its answer, without sockets.
 #pragma once
 
+#include <optional>
+
 #include "server/net/access.hpp"
 #include "server/net/http_message.hpp"
 #include "server/net/target.hpp"
@@ -22,8 +24,10 @@ class Api {
   /// was not used for, or that come from another site, are answered 403.
   void handle(HttpRequest request, Respond respond) const;
 
-  /// What has to be right before a request may become a WebSocket.
-  [[nodiscard]] protocol::Result<void> check_access(const HttpRequest& request) const;
+  /// The answer to a request that may not come here at all, be it for a page or a WebSocket: 400
+  /// without exactly one Host header, 403 under a name that is not the server's, or from another
+  /// site. Nothing for every other one.
+  [[nodiscard]] std::optional<HttpResponse> refuse_access(const HttpRequest& request) const;
 
  private:
   void handle_maps(const HttpRequest& request, Respond respond) const;

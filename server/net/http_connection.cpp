@@ -2,11 +2,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/dynamic_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/rfc7230.hpp>
@@ -16,8 +19,10 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
+#include "server/net/handshake.hpp"
 #include "server/net/signal.hpp"
 #include "server/net/target.hpp"
 #include "server/net/websocket_session.hpp"
@@ -30,8 +35,10 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 using asio::awaitable;
 using protocol::Code;
-using Parser = http::request_parser<http::string_body>;
-using Request = http::request<http::string_body>;
+// A body that takes memory as it comes, and none for what its length claims.
+using Body = http::basic_dynamic_body<beast::flat_buffer>;
+using Parser = http::request_parser<Body>;
+using Request = http::request<Body>;
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
@@ -53,7 +60,7 @@ HttpRequest plain(const Request& request) {
           .origin = header(request, http::field::origin),
           .content_type = header(request, http::field::content_type),
           .if_none_match = header(request, http::field::if_none_match),
-          .body = request.body()};
+          .body = beast::buffers_to_string(request.body().data())};
 }
 
 /// The answer to what is no request that can be read; nothing when the peer is just gone.
@@ -70,6 +77,22 @@ std::optional<HttpResponse> answer_to(const beast::error_code& error) {
   return problem(400, {Code::bad_message, "no HTTP request: " + error.message(), {}});
 }
 
+Handshake handshake_of(const Request& request) {
+  const std::string protocols = header(request, http::field::sec_websocket_protocol).value_or("");
+  return {.version = header(request, http::field::sec_websocket_version),
+          .key = header(request, http::field::sec_websocket_key),
+          .offers_subprotocol = http::token_list(protocols).exists(kSubprotocol)};
+}
+
+HttpResponse too_many(std::size_t connections) {
+  HttpResponse response =
+      problem(503, {Code::too_large,
+                    "connections: the server has " + std::to_string(connections) + ", its most",
+                    "connections"});
+  response.headers.emplace_back("Retry-After", "5");
+  return response;
+}
+
 bool opens_websocket(const Request& request) {
   if (!beast::websocket::is_upgrade(request)) return false;
   const auto target = parse_target(std::string_view(request.target()));
@@ -82,6 +105,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       : stream_(std::move(socket)), service_(service), answered_(stream_.get_executor()) {}
 
   awaitable<void> run(Connections::Id id);
+  /// Says that there are too many, and ends.
+  awaitable<void> turn_away();
 
   /// Any thread.
   void stop() {
@@ -98,6 +123,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   awaitable<HttpResponse> ask(HttpRequest request);
   awaitable<bool> upgrade(Request request, Connections::Id id);
   awaitable<bool> answer(HttpResponse response, bool keep_alive, bool with_body);
+  void close();
 
   beast::tcp_stream stream_;
   const Service service_;
@@ -111,6 +137,24 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 awaitable<void> HttpConnection::run(Connections::Id id) {
   while (!stopping_ && co_await serve_one(id)) {
   }
+  close();
+}
+
+awaitable<void> HttpConnection::turn_away() {
+  co_await answer(too_many(service_.limits.connections), false, true);
+  beast::error_code error;
+  stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, error);
+  // Closed with a request unread, the connection would be reset and the answer be lost. What comes
+  // is dropped, until the peer has read and closed.
+  std::array<char, 512> dropped{};
+  stream_.expires_after(service_.limits.farewell);
+  idle_ = true;
+  while (!error && !stopping_)
+    std::tie(error, std::ignore) = co_await stream_.async_read_some(asio::buffer(dropped), kAwait);
+  close();
+}
+
+void HttpConnection::close() {
   beast::error_code ignored;
   stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
   stream_.socket().close(ignored);
@@ -166,16 +210,9 @@ awaitable<HttpResponse> HttpConnection::ask(HttpRequest request) {
 }
 
 awaitable<bool> HttpConnection::upgrade(Request request, Connections::Id id) {
-  if (auto allowed = service_.api.check_access(plain(request)); !allowed)
-    co_return co_await answer(problem(403, allowed.error()), false, true);
-  const bool offered =
-      http::token_list(request[http::field::sec_websocket_protocol]).exists(kSubprotocol);
-  if (!offered) {
-    const protocol::Failure failure{Code::bad_version,
-                                    "Sec-WebSocket-Protocol: earthwork.v1 is needed",
-                                    "Sec-WebSocket-Protocol"};
-    co_return co_await answer(problem(400, failure), false, true);
-  }
+  auto refusal = service_.api.refuse_access(plain(request));
+  if (!refusal) refusal = refuse_handshake(handshake_of(request));
+  if (refusal) co_return co_await answer(std::move(*refusal), false, true);
   if (buffer_.size() > 0) co_return false;  // frames before the handshake's end
   std::ostringstream handshake;
   handshake << request;
@@ -208,12 +245,15 @@ awaitable<bool> HttpConnection::answer(HttpResponse response, bool keep_alive, b
 
 }  // namespace
 
-awaitable<void> serve_connection(asio::ip::tcp::socket socket, Service service,
-                                 Connections::Id id) {
+awaitable<void> serve_connection(asio::ip::tcp::socket socket, Service service, Connections::Id id,
+                                 Reception reception) {
   try {
     const auto connection = std::make_shared<HttpConnection>(std::move(socket), service);
     service.connections.on_stop(id, [connection] { connection->stop(); });
-    co_await connection->run(id);
+    if (reception == Reception::served)
+      co_await connection->run(id);
+    else
+      co_await connection->turn_away();
   } catch (const std::exception& error) {
     spdlog::warn("a connection ended: {}", error.what());
   }

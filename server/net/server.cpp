@@ -33,6 +33,8 @@ using asio::ip::tcp;
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::milliseconds kStopPatience{3500};
 constexpr int kWorkerThreads = 1;
+// That are being told at a time that there are too many; yet more are closed without a word.
+constexpr std::size_t kMaxTurnedAway = 64;
 
 /// Until the context is stopped. What a handler throws has ended that handler; the thread goes on
 /// with the others.
@@ -66,11 +68,10 @@ struct Server::Running {
   tcp::acceptor acceptor;
   ListenAddress address;
   room::Atlas atlas;
-  Connections connections;
+  Connections connections, turned_away;
   SessionLimits limits;
   Workers workers{kWorkerThreads};
   std::optional<Api> api;
-  std::optional<Service> service;
   std::once_flag stopped;
   std::vector<std::jthread> threads;
 };
@@ -100,17 +101,25 @@ asio::awaitable<void> Server::Running::accept() {
   }
 }
 
-/// One that is not admitted is closed.
 void Server::Running::admit(tcp::socket socket) {
+  auto reception = Reception::served;
+  Connections* list = &connections;
   std::optional<Connections::Id> id;
   try {
-    id = connections.admit(limits.connections);
+    id = list->admit(limits.connections);
+    if (!id) {
+      reception = Reception::turned_away;
+      list = &turned_away;
+      id = list->admit(kMaxTurnedAway);
+    }
     if (!id) return;
     const auto executor = socket.get_executor();
-    asio::co_spawn(executor, serve_connection(std::move(socket), *service, *id), asio::detached);
+    const Service wanted{atlas, *api, *list, limits};
+    asio::co_spawn(executor, serve_connection(std::move(socket), wanted, *id, reception),
+                   asio::detached);
   } catch (const std::exception& error) {
     spdlog::warn("a connection could not be served: {}", error.what());
-    if (id) connections.remove(*id);
+    if (id) list->remove(*id);
   }
 }
 
@@ -125,8 +134,6 @@ protocol::Result<std::unique_ptr<Server>> Server::start(const ServerOptions& opt
   }
   running->api.emplace(running->atlas, running->workers,
                        Access(running->address, options.allowed_hosts));
-  running->service.emplace(
-      Service{running->atlas, *running->api, running->connections, running->limits});
   asio::co_spawn(running->acceptor.get_executor(), running->accept(), asio::detached);
 
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -150,6 +157,7 @@ void Server::stop() {
       boost::system::error_code ignored;
       running->acceptor.close(ignored);
     });
+    running_->turned_away.stop_all(std::chrono::milliseconds(0));
     running_->connections.stop_all(kStopPatience);
     running_->context.stop();
     running_->threads.clear();

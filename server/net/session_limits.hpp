@@ -11,7 +11,7 @@ struct SessionLimits {
   std::chrono::milliseconds silence{30'000};  ///< Without a byte either way; half of it: a ping.
   std::chrono::milliseconds request{10'000};  ///< For an HTTP request to arrive, or for the next.
   std::chrono::milliseconds farewell{2'000};  ///< From bye to the end of the connection.
-  std::size_t connections = 4096;             ///< At a time; more are closed at once.
+  std::size_t connections = 4096;             ///< At a time; more are answered 503 and closed.
   double messages_per_second = 10'000;        ///< Of a session; beyond it, it is not read.
   double message_burst = 2'000;
 };

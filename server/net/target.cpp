@@ -1,5 +1,8 @@
 #include "server/net/target.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 namespace earthwork::net {
 namespace {
 
@@ -9,6 +12,22 @@ std::string_view take_until(char separator, std::string_view& text) {
   const std::string_view head = text.substr(0, at);
   text = at == std::string_view::npos ? std::string_view{} : text.substr(at + 1);
   return head;
+}
+
+/// Cuts "http://name:80" off; nothing when the text does not begin so. A scheme's case is free.
+std::optional<std::string> take_authority(std::string_view& text) {
+  constexpr std::string_view kScheme = "http://";
+  const auto same = [](char wanted, char given) {
+    return std::tolower(static_cast<unsigned char>(given)) == wanted;
+  };
+  if (text.size() < kScheme.size() ||
+      !std::equal(kScheme.begin(), kScheme.end(), text.begin(), same))
+    return std::nullopt;
+  text.remove_prefix(kScheme.size());
+  const std::size_t end = std::min(text.find_first_of("/?"), text.size());
+  std::string authority(text.substr(0, end));
+  text.remove_prefix(end);
+  return authority;
 }
 
 }  // namespace
@@ -21,7 +40,9 @@ std::optional<std::string> Target::asked(std::string_view key) const {
 
 std::optional<Target> parse_target(std::string_view text) {
   Target target;
+  target.authority = take_authority(text);
   std::string_view path = take_until('?', text);
+  if (target.authority && path.empty()) path = "/";
   if (path.empty() || path.front() != '/' || path.find('%') != std::string_view::npos)
     return std::nullopt;
 

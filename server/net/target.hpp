@@ -15,12 +15,15 @@ namespace earthwork::net {
 struct Target {
   std::vector<std::string> segments;
   std::map<std::string, std::string, std::less<>> query;  ///< Of equal keys the last one.
+  /// "name:80" of "http://name:80/x", as requests to a proxy are written; it stands for the Host
+  /// header then, whatever that says. Source: RFC 9112, 3.2.2.
+  std::optional<std::string> authority;
 
   [[nodiscard]] std::optional<std::string> asked(std::string_view key) const;
 };
 
-/// Nothing when the text does not start with '/', or has an empty, "." or ".." segment, or an
-/// escape in its path.
+/// Nothing when the text starts neither with '/' nor with "http://", or has an empty, "." or ".."
+/// segment, or an escape in its path.
 [[nodiscard]] std::optional<Target> parse_target(std::string_view text);
 
 }  // namespace earthwork::net

@@ -47,11 +47,10 @@ struct ApiTest : testing::Test {
     };
     const auto room = atlas.find(map);
     const auto viewer = room->join(std::make_shared<Blind>(), {}).value().viewer;
-    for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {++last_id, 0, edit}));
+    for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {++id, 0, edit}));
     context.run();
     room->leave(viewer);
   }
-  protocol::MessageId last_id = 0;
   static std::string header(const HttpResponse& response, const std::string& name) {
     for (const auto& [key, value] : response.headers)
       if (key == name) return value;
@@ -178,24 +177,6 @@ TEST_F(ApiTest, ATargetThatIsAUrlIsCheckedInPlaceOfTheHost) {
   EXPECT_EQ(ask(asked).status, 200);
   asked.origin = "http://evil.example";
   is_problem(ask(asked), 403);
-}
-
-TEST_F(ApiTest, GivesMetrics) {
-  ASSERT_EQ(create(R"({"name":"a"})").status, 201);
-  ASSERT_EQ(create(R"({"name":"b"})").status, 201);
-  paint("a", {kSquare, kSquare});
-  const auto metrics = get("/metrics");
-  EXPECT_EQ(metrics.status, 200);
-  EXPECT_EQ(metrics.content_type, "text/plain; version=0.0.4; charset=utf-8");
-  EXPECT_NE(metrics.body.find("\nearthwork_maps 2\n"), std::string::npos) << metrics.body;
-  EXPECT_NE(metrics.body.find("\nearthwork_edits_total 2\n"), std::string::npos) << metrics.body;
-
-  EXPECT_EQ(ask(request("HEAD", "/metrics")).status, 200);
-  is_problem(ask(request("POST", "/metrics")), 405);
-  is_problem(get("/metrics/x"), 404);
-  auto foreign = request("GET", "/metrics");
-  foreign.host = "evil.example";
-  is_problem(ask(foreign), 403);
 }
 
 TEST_F(ApiTest, SaysWhichMethodsThereAre) {

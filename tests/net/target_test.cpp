@@ -26,8 +26,29 @@ TEST(Target, OfTheRootHasNoSegments) {
 TEST(Target, ThatLeadsAsideIsNone) {
   for (const char* text :
        {"", "api", "*", "//", "/api/", "/api//maps", "/..", "/../etc/passwd", "/api/../x",
-        "/api/./x", "/%2e%2e/etc", "/api%2Fmaps", "?x", "http://localhost/api"})
+        "/api/./x", "/%2e%2e/etc", "/api%2Fmaps", "?x", "https://localhost/api", "ftp://x/",
+        "http:/x", "http://x/../y", "http://x/%2e", "xhttp://x/"})
     EXPECT_FALSE(parse_target(text)) << text;
+}
+
+TEST(Target, MayBeAWholeUrl) {
+  const auto target = parse_target("HTTP://Maps.example:80/api/maps?x=http://y/");
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->authority, "Maps.example:80");
+  EXPECT_EQ(target->segments, (Segments{"api", "maps"}));
+  EXPECT_EQ(target->asked("x"), "http://y/");
+  EXPECT_EQ(parse_target("/api")->authority, std::nullopt);
+}
+
+TEST(Target, OfAUrlWithoutAPathIsTheRoot) {
+  for (const char* text : {"http://a", "http://a/", "http://a?x=1"}) {
+    const auto target = parse_target(text);
+    ASSERT_TRUE(target) << text;
+    EXPECT_EQ(target->authority, "a");
+    EXPECT_EQ(target->segments, Segments{});
+  }
+  EXPECT_EQ(parse_target("http://a?x=1")->asked("x"), "1");
+  EXPECT_EQ(parse_target("http:///x")->authority, "");  // which is no name of any server
 }
 
 TEST(Target, LeavesTheQueryAsItIs) {
