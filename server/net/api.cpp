@@ -12,6 +12,8 @@
 #include "protocol/json_text.hpp"
 #include "server/net/front_page.hpp"
 #include "server/net/map_resource.hpp"
+#include "server/net/metrics.hpp"
+#include "server/net/survey.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -96,6 +98,7 @@ protocol::Result<NewMap> read_new_map(std::string_view body) {
 
 Api::Api(room::Atlas& atlas, Workers& workers, Access access)
     : atlas_(atlas),
+      survey_(std::make_shared<Survey>(atlas)),
       workers_(workers),
       access_(std::move(access)) {}
 
@@ -127,6 +130,10 @@ void Api::handle(HttpRequest request, Respond respond) const {
     response.headers.emplace_back("Upgrade", "websocket");
     return respond(std::move(response));
   }
+  if (path == std::vector<std::string>{"metrics"}) {
+    if (!check_method(request, {"GET"}, respond)) return;
+    return give_metrics(std::move(respond));
+  }
   if (path.size() >= 2 && path[0] == "api" && path[1] == "maps") {
     if (path.size() == 2) return handle_maps(request, std::move(respond));
     if (path.size() <= 4) return handle_map(request, *target, std::move(respond));
@@ -145,6 +152,14 @@ void Api::list_maps(const Respond& respond) const {
   for (const auto& room : atlas_.list())
     maps.push_back({{"name", room->name()}, {"epoch", protocol::hex(room->epoch())}});
   respond(json_response(200, {{"maps", std::move(maps)}}));
+}
+
+void Api::give_metrics(Respond respond) const {
+  survey_->ask([&meters = atlas_.meters(), respond = std::move(respond)](const MapTotals& totals) {
+    HttpResponse response = text_response(metrics_text(meters, totals, own_usage()));
+    response.content_type = kMetricsContentType;
+    respond(std::move(response));
+  });
 }
 
 void Api::create_map(const HttpRequest& request, Respond respond) const {

@@ -1,6 +1,7 @@
 /// The HTTP interface: from a request to its answer, without sockets.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "server/net/access.hpp"
@@ -10,6 +11,8 @@
 #include "server/room/atlas.hpp"
 
 namespace earthwork::net {
+
+class Survey;
 
 /// Of a request's body.
 inline constexpr std::size_t kMaxBodyBytes = 64 * 1024;
@@ -34,8 +37,10 @@ class Api {
   void handle_map(const HttpRequest& request, const Target& target, Respond respond) const;
   void create_map(const HttpRequest& request, Respond respond) const;
   void list_maps(const Respond& respond) const;
+  void give_metrics(Respond respond) const;
 
   room::Atlas& atlas_;
+  const std::shared_ptr<Survey> survey_;
   Workers& workers_;
   Access access_;
 };

@@ -179,6 +179,24 @@ TEST_F(ApiTest, ATargetThatIsAUrlIsCheckedInPlaceOfTheHost) {
   is_problem(ask(asked), 403);
 }
 
+TEST_F(ApiTest, GivesMetrics) {
+  ASSERT_EQ(create(R"({"name":"a"})").status, 201);
+  ASSERT_EQ(create(R"({"name":"b"})").status, 201);
+  paint("a", {kSquare, kSquare});
+  const auto metrics = get("/metrics");
+  EXPECT_EQ(metrics.status, 200);
+  EXPECT_EQ(metrics.content_type, "text/plain; version=0.0.4; charset=utf-8");
+  EXPECT_NE(metrics.body.find("\nearthwork_maps 2\n"), std::string::npos) << metrics.body;
+  EXPECT_NE(metrics.body.find("\nearthwork_edits_total 2\n"), std::string::npos) << metrics.body;
+
+  EXPECT_EQ(ask(request("HEAD", "/metrics")).status, 200);
+  is_problem(ask(request("POST", "/metrics")), 405);
+  is_problem(get("/metrics/x"), 404);
+  auto foreign = request("GET", "/metrics");
+  foreign.host = "evil.example";
+  is_problem(ask(foreign), 403);
+}
+
 TEST_F(ApiTest, SaysWhichMethodsThereAre) {
   ASSERT_EQ(create(R"({"name":"a"})").status, 201);
   const auto allow = [&](const char* method, const char* target) {
