@@ -47,16 +47,18 @@ struct TcpClient::Impl {
 TcpClient::TcpClient(std::uint16_t port) : impl_(std::make_unique<Impl>(port)) {}
 TcpClient::~TcpClient() = default;
 
+std::uint16_t TcpClient::own_port() const { return impl_->socket.local_endpoint().port(); }
+
 bool TcpClient::send(std::string_view bytes) {
   Error error;
   asio::write(impl_->socket, asio::buffer(bytes), error);
   return !error;
 }
 
-std::string TcpClient::read_head() {
+std::string TcpClient::read_until(const std::string& end) {
   std::string& bytes = impl_->ahead;
   std::optional<std::size_t> length;
-  asio::async_read_until(impl_->socket, asio::dynamic_buffer(bytes), "\r\n\r\n",
+  asio::async_read_until(impl_->socket, asio::dynamic_buffer(bytes), end,
                          [&](Error error, std::size_t n) { length = error ? bytes.size() : n; });
   impl_->context.restart();
   impl_->context.run_for(kPatience);

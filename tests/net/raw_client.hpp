@@ -16,11 +16,15 @@ class TcpClient {
   explicit TcpClient(std::uint16_t port);
   ~TcpClient();
 
+  /// The port of this end, by which the other end's socket can be told from others.
+  [[nodiscard]] std::uint16_t own_port() const;
   /// False when the server has closed.
   bool send(std::string_view bytes);
-  /// The head of an answer, its blank line included; what came behind it is read next. Without one,
-  /// what came until the server closed, or for a minute.
-  std::string read_head();
+  /// What comes up to `end`, and `end`; what came behind it is read next. Without one, what came
+  /// until the server closed, or for a minute.
+  std::string read_until(const std::string& end);
+  /// The head of an answer, its blank line included.
+  std::string read_head() { return read_until("\r\n\r\n"); }
   /// All that comes until the server closes; `closed` says whether it did within the time.
   std::string read_to_end(std::chrono::milliseconds patience, bool& closed);
   std::string read_to_end(bool& closed) { return read_to_end(std::chrono::minutes(1), closed); }
