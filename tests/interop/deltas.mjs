@@ -1,5 +1,5 @@
-// Delta records: what an edit makes of a chunk's mesh, as protocol/README.md, "Delta record", has it.
-// Whatever does not follow it throws BadFrame.
+// Delta records: what an edit makes of a chunk's mesh, as protocol/README.md, "Delta record", has
+// it. Whatever does not follow it throws BadFrame.
 import { BadFrame, Reader, expect, unzigzag, COORDINATE_END, MAX_LENGTH, MAX_VERTICES }
   from './records.mjs';
 
@@ -130,7 +130,8 @@ class Delta {
   // `joined` is the first section that is copied after this one.
   #readSection(joined) {
     const head = this.#reader.varint();
-    const [given, kind, startKind, endKind] = [head & 1, head >> 1 & 3, head >> 3 & 3, head >> 5 & 3];
+    const given = head & 1;
+    const [kind, startKind, endKind] = [1, 3, 5].map((shift) => head >> shift & 3);
     const before = this.#sections.at(-1);
     expect(head < 256 && startKind < 3 && endKind < 3, 'a section has no such head');
     expect(given ? startKind !== 0 : before !== undefined, 'a section starts nowhere');
@@ -139,7 +140,8 @@ class Delta {
       return joined;
     };
     const start = given ? this.#readVertex() : before.end;
-    const wall = given ? { at: this.#point(start), normal: { x: 0, y: 0 } } : this.#wallAfter(before);
+    const wall = given
+      ? { at: this.#point(start), normal: { x: 0, y: 0 } } : this.#wallAfter(before);
     const end = kind < 3 ? this.#readEnd(wall, kind, startKind !== 0)
       : head & 128 ? this.#readVertex() : copy().start;
     const [a, b] = [this.#point(start), this.#point(end)];
@@ -232,7 +234,8 @@ class Delta {
     expect(vertices.length <= MAX_VERTICES, `${vertices.length} vertices are too many`);
     this.#numbers = new Map(vertices.map((vertex, number) => [vertex, number]));
     const sorted = vertices.map((vertex) => this.#point(vertex));
-    expect(sorted.every((at, i) => i === 0 || precedes(sorted[i - 1], at)), 'a vertex is there twice');
+    expect(!sorted.some((at, i) => i > 0 && !precedes(sorted[i - 1], at)),
+      'a vertex is there twice');
     return sorted;
   }
 
@@ -251,7 +254,8 @@ class Delta {
     const pass = (many, copy) => {
       for (let left = many; left > 0; at += 3) {
         expect(at < this.#base.indices.length, 'triangles are passed that the base does not have');
-        const corners = Array.from(this.#base.indices.subarray(at, at + 3), (i) => this.#numbers.get(i));
+        const corners = Array.from(this.#base.indices.subarray(at, at + 3),
+          (i) => this.#numbers.get(i));
         if (corners.includes(undefined)) continue;
         --left;
         if (copy) triangles.put(corners);

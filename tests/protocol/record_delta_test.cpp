@@ -153,5 +153,107 @@ TEST(RecordDelta, BoundsItsCounts) {
   EXPECT_EQ(outcome(base, same_but(7, {0x44})), "triangles: are copied from beyond the base");
 }
 
+/// The delta of the README, with the bytes from `at` on in place of `count` of its own.
+std::string cut_but(std::size_t at, std::size_t count, std::vector<std::uint8_t> bytes) {
+  const auto delta = delta_of(ordered_square_mesh(), cut_square_mesh());
+  EXPECT_TRUE(delta);
+  std::string operations = delta->operations;
+  return operations.replace(at, count, std::string(bytes.begin(), bytes.end()));
+}
+
+// Offsets: the head, the y and the normal of the first new section, the count of vertices beside
+// the walls, a triangle's varint.
+constexpr std::size_t kSectionAt = 7, kYAt = 9, kNormalAt = 12, kBesideAt = 19, kTriangleAt = 22;
+
+TEST(RecordDelta, BoundsNewSections) {
+  const ChunkMesh base = ordered_square_mesh();
+  const auto refused = [&](std::size_t at, std::size_t count, std::vector<std::uint8_t> bytes) {
+    return outcome(base, cut_but(at, count, std::move(bytes)));
+  };
+  EXPECT_EQ(refused(0, 0, {}), "good");
+  const std::string no_head = "sections: one starts nowhere, or has no head";
+  EXPECT_EQ(refused(kSectionAt, 1, {0x8c, 0x02}), no_head);
+  EXPECT_EQ(refused(kSectionAt, 1, {0x1c}), no_head) << "normal of a fourth kind";
+  EXPECT_EQ(refused(kSectionAt, 1, {0x6c}), no_head);
+  EXPECT_EQ(refused(kSectionAt, 1, {0x05}), no_head) << "no normal to go on with";
+  EXPECT_EQ(outcome(base, std::string("\x01\x01\x00\x00", 4)), no_head);
+  EXPECT_EQ(refused(kYAt, 3, {0x81, 0x80, 0x06}), "vertices: a coordinate is outside the chunk");
+  EXPECT_EQ(refused(kYAt, 3, {0}), "sections: one ends where it starts");
+  EXPECT_EQ(refused(kBesideAt, 1, {1, 0x80, 0x80, 0x03, 0x80, 0x80, 0x03}),
+            "vertices: one is there twice");
+  EXPECT_EQ(refused(kNormalAt, 1, {0xe0}), "sections: a normal's length is not 32767");
+  EXPECT_EQ(refused(kNormalAt, 1, {0xf1}), "sections: a normal's length is not 32767");
+  const auto one = [&](std::vector<std::uint8_t> bytes) {
+    return outcome(base,
+                   "\x01\x01" + std::string(1, '\0') + std::string(bytes.begin(), bytes.end()));
+  };
+  EXPECT_EQ(one({0x0f, 0}), "sections: one joins a copied one that is not there");
+  EXPECT_EQ(one({0x0f, 32}), "sections: one names a vertex that is not there");
+  EXPECT_EQ(one({0x0f, 1}), "sections: one names a vertex that is not there");
+  EXPECT_EQ(one({0x0f, 3}), "sections: one names a vertex that is not there");
+}
+
+TEST(RecordDelta, BoundsNewTriangles) {
+  const ChunkMesh base = ordered_square_mesh();
+  const auto refused = [&](std::vector<std::uint8_t> bytes) {
+    return outcome(base, cut_but(kTriangleAt, 1, std::move(bytes)));
+  };
+  const std::string nowhere =
+      "triangles: a triangle names a vertex twice, or stands on no open edge";
+  EXPECT_EQ(refused({0xa0, 0x06}), "triangles: an index is beyond the vertices");
+  EXPECT_EQ(refused({0x08}), "triangles: an index is beyond the vertices") << "below 0";
+  EXPECT_EQ(refused({0x83, 0x02}), "triangles: a triangle has no such form");
+  EXPECT_EQ(refused({0x03}), nowhere);
+  ChunkMesh open = base;
+  open.sections.clear();
+  EXPECT_EQ(outcome(open, std::string("\x00\x00\x00\x01\x01\x00", 6)), nowhere);
+}
+
+TEST(RecordDelta, BoundsItsHead) {
+  ChunkRecord after = record_of(cut_square_mesh());
+  after.revision = 300;
+  std::string whole;
+  ASSERT_TRUE(encode_delta(encoded(record_of(ordered_square_mesh())), encoded(after), whole));
+  const auto refused = [&](std::size_t at, char byte) {
+    std::string bytes = whole;
+    bytes[at] = byte;
+    const auto delta = decode_delta(bytes_of(bytes));
+    return delta ? "good" : delta.error().detail;
+  };
+  EXPECT_EQ(refused(4, 3), "good");
+  EXPECT_EQ(refused(0, 0), "length: is not that of the record, or beyond the limit");
+  EXPECT_EQ(refused(4, 2), "kind: is not 3");
+  EXPECT_EQ(refused(5, 16), "layer: is beyond the limit of 15");
+  EXPECT_EQ(refused(9, 0), "key: is beyond the limit of 125072");
+  EXPECT_EQ(refused(26, 0), "base revision: is not before the revision");
+  EXPECT_FALSE(decode_delta(bytes_of(whole.substr(0, 26))));
+}
+
+TEST(RecordDelta, IsMadeOfFullRecordsOfOneChunkAlone) {
+  const ChunkRecord base = record_of(row_mesh(20, -1, -1));
+  ChunkRecord next = record_of(row_mesh(20, 3, -1));
+  next.revision = 300;
+  std::string out;
+  const auto made = [&](const ChunkRecord& from, const ChunkRecord& to) {
+    return encode_delta(encoded(from), encoded(to), out);
+  };
+  ASSERT_TRUE(made(base, next));
+  out.clear();
+  ChunkRecord other = next;
+  other.key.x = 7;
+  EXPECT_FALSE(made(base, other));
+  EXPECT_FALSE(made(next, base)) << "backwards";
+  other = next;
+  other.revision = 258;
+  EXPECT_FALSE(made(base, other));
+  EXPECT_FALSE(made(removed_record(), next));
+  other = record_of(square_mesh());
+  other.revision = 300;
+  EXPECT_FALSE(made(base, other)) << "vertices out of order";
+  EXPECT_FALSE(encode_delta("", "x", out));
+  EXPECT_FALSE(encode_delta(base, next, 40, out)) << "larger than the full record";
+  EXPECT_TRUE(out.empty());
+}
+
 }  // namespace
 }  // namespace earthwork::protocol
