@@ -44,22 +44,25 @@ void Membership::connect() {
                                    if (handlers_.frame) handlers_.frame(events, bytes);
                                  },
                              .closed = [this](const auto& closing) { link_closed(closing); }});
-  if (paused_) link_->pause_reading(true);
 }
 
 protocol::Result<protocol::MessageId> Membership::edit(const protocol::Edit& edit) {
   if (closing_) return protocol::fail(Code::bad_state, "the part in the map has ended");
   const auto added = resume_.add(edit);
   if (!added) return tl::unexpected<Failure>(added.error());
-  // The queue has room for all that may be unanswered. A link that is ending by itself takes
-  // nothing; then the edit is sent over the next one.
-  if (live_) static_cast<void>(link_->send_written(std::string(added->message)));
+  if (live_) say(std::string(added->message));
   return added->id;
 }
 
 void Membership::look(const protocol::View& view) {
   std::string text = resume_.look(view);
-  if (live_) static_cast<void>(link_->send_written(std::move(text)));
+  if (live_) say(std::move(text));
+}
+
+// A link that is ending by itself takes nothing, and a server that has taken nothing for as long as
+// it needs to fill the queue is as good as gone: what was to be said is said over the next one.
+void Membership::say(std::string text) {
+  if (!link_->send_written(std::move(text)) && link_->congested()) cut();
 }
 
 protocol::Result<void> Membership::send(const protocol::ClientMessage& message) {
@@ -91,12 +94,10 @@ void Membership::enter() {
   std::optional<protocol::Have> have;
   if (resume_.looks() && handlers_.have) have = handlers_.have();
   live_ = true;
-  for (std::string& text : resume_.opening(std::move(have)))
-    static_cast<void>(link_->send_written(std::move(text)));
+  for (std::string& text : resume_.opening(std::move(have))) say(std::move(text));
 }
 
 void Membership::pause_reading(bool paused) {
-  paused_ = paused;
   if (linked_) link_->pause_reading(paused);
 }
 

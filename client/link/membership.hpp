@@ -70,7 +70,7 @@ class Membership {
   /// Said in the next hello: with its key, once there was a welcome.
   [[nodiscard]] const protocol::Hello& hello() const { return resume_.hello(); }
 
-  /// As of Link, for this connection and those to come.
+  /// As of Link, for this connection; the next one is read.
   void pause_reading(bool paused);
   /// Ends the connection as a broken network would; another one follows.
   void cut();
@@ -82,6 +82,7 @@ class Membership {
   void connect();
   void take(const protocol::ServerMessage& message);
   void enter();
+  void say(std::string text);
   void link_closed(const Closing& closing);
   void hand_back(const std::vector<Answer>& answers);
   void end(const Closing& closing);
@@ -95,8 +96,7 @@ class Membership {
   bool live_ = false;     // joined, and what is sent again was sent
   bool cutting_ = false;  // the connection is about to be dropped
   bool closing_ = false;  // the owner has closed it, or it has ended
-  bool paused_ = false;
-  Timer next_;  // what comes next without a connection
+  Timer next_;            // what comes next without a connection
   std::optional<Link> link_;
 };
 

@@ -73,6 +73,7 @@ struct Member {
   }
 
   EventLoop loop;
+  Timer timer{loop};
   std::string log;
   std::vector<Answer> answers;
   std::vector<std::chrono::milliseconds> delays;
@@ -311,6 +312,27 @@ TEST(Membership, SendsOtherMessagesOnlyWhileItHasJoined) {
       [](const Member&) {});
   ASSERT_EQ(map.heard[0].size(), 5u);
   EXPECT_EQ(map.heard[0][3], R"({"type":"ping"})");
+}
+
+TEST(Membership, AsksOverAnotherConnectionWhatADeafServerDoesNotTake) {
+  FakeMap map;
+  std::uint32_t n = 0;
+  meet(
+      map,
+      [&n](Member& m) {
+        m.on_joined = [&m, &n](Joining how) {
+          if (how == Joining::again) return m.edits(1);
+          // Once all is said: nothing is read meanwhile, for the server's turn has not come.
+          m.timer.start({}, [&m, &n] {
+            while (m.membership->joined() && n < 1'000'000)
+              m.membership->look({.n = ++n, .rect = {{0, 0, 1, 1}}, .have = {}, .id = {}});
+          });
+        };
+        m.close_after(1);
+      },
+      [](const Member& m) { EXPECT_EQ(m.log, "joined:0 away joined:1 ended "); });
+  EXPECT_GT(n, 10'000u);
+  EXPECT_EQ(json::parse(map.heard.back()[2])["n"], n);
 }
 
 TEST(Membership, AnswersAndAppliesEachEditOnceWhateverBreaks) {
