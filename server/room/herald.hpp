@@ -32,8 +32,10 @@ class Herald {
   /// After it the viewer is not called again, and is nobody here.
   void leave(ViewerId id);
   void leave_all();
-  /// Who is listed, with whoever entered last.
-  [[nodiscard]] std::vector<protocol::User> users() const { return board_.users(); }
+  /// Who is there, for who has just entered: up to kMaxJoinedUsers, itself the last.
+  [[nodiscard]] std::vector<protocol::User> users_for(ViewerId id) const {
+    return board_.users_for(id);
+  }
 
   /// None of these calls a viewer, apart from `heard`, and none does anything for nobody.
   void point(ViewerId id, const protocol::Cursor& cursor);

@@ -23,6 +23,8 @@ void PresenceBoard::enter(ViewerId id, protocol::User user) {
     list(id, person);
   else
     unlisted_.insert(id);
+  person.lost = listed_ > kMaxJoinedUsers;
+  changed_ = true;
 }
 
 void PresenceBoard::list(ViewerId id, Person& person) {
@@ -94,11 +96,13 @@ std::optional<std::int64_t> PresenceBoard::hide_old(std::int64_t now_ms) {
   return first;
 }
 
-std::vector<protocol::User> PresenceBoard::users() const {
+std::vector<protocol::User> PresenceBoard::users_for(ViewerId id) const {
   std::vector<protocol::User> users;
-  users.reserve(listed_);
-  for (const auto& [id, person] : people_)
-    if (person.listed) users.push_back(person.user);
+  for (const auto& [other, person] : people_) {
+    if (users.size() == kMaxJoinedUsers - 1) break;
+    if (person.listed && other != id) users.push_back(person.user);
+  }
+  if (const auto own = people_.find(id); own != people_.end()) users.push_back(own->second.user);
   return users;
 }
 
@@ -109,7 +113,8 @@ void PresenceBoard::advance() {
 }
 
 PresenceBoard::Knowledge PresenceBoard::knowledge_of(const Person& person) const {
-  const bool lost = person.known < forgotten_ || version_ - person.known > kMostVersionsBehind;
+  const bool lost =
+      person.lost || person.known < forgotten_ || version_ - person.known > kMostVersionsBehind;
   if (lost) return {};
   return {person.known, person.newcomer};
 }
@@ -122,7 +127,7 @@ SharedText PresenceBoard::news_for(ViewerId id) {
   const auto [news, is_new] = news_.try_emplace(knowledge);
   if (is_new) news->second = write_news(knowledge);
   person.known = version_;
-  person.newcomer = false;
+  person.newcomer = person.lost = false;
   return news->second.sole == id ? nullptr : news->second.text;
 }
 

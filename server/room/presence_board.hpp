@@ -22,6 +22,9 @@ namespace earthwork::room {
 /// So many are listed to each other, whoever came first; it keeps a message that lists all far
 /// below kMaxServerControlBytes. Who is beyond sees the others and is not seen, until one goes.
 inline constexpr std::size_t kMaxListedUsers = 1000;
+/// `joined` lists this many; of a larger crowd the first presence lists all. A presence is written
+/// once for everybody, `joined` for each who comes.
+inline constexpr std::size_t kMaxJoinedUsers = 64;
 /// A cursor that was not said again for so long is hidden.
 inline constexpr std::int64_t kCursorMs = 30'000;
 
@@ -36,8 +39,8 @@ class PresenceBoard {
   /// Hides the cursors that are too old, and says when the next one will be, if there is any.
   std::optional<std::int64_t> hide_old(std::int64_t now_ms);
 
-  /// Those who are listed, for who has just entered.
-  [[nodiscard]] std::vector<protocol::User> users() const;
+  /// For who has just entered: those who are listed, up to kMaxJoinedUsers with itself, the last.
+  [[nodiscard]] std::vector<protocol::User> users_for(ViewerId id) const;
 
   /// Something changed since the current version.
   [[nodiscard]] bool changed() const { return changed_; }
@@ -51,7 +54,8 @@ class PresenceBoard {
   struct Person {
     protocol::User user;
     bool listed = false;
-    bool newcomer = true;         // knows no cursor yet
+    bool newcomer = true;         // knows no cursor yet,
+    bool lost = false;            // nor who is there
     std::uint64_t known = 0;      // the version that it was told of
     std::uint64_t listed_at = 0;  // the version in which it came
     std::optional<protocol::MapPoint> at;

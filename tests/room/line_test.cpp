@@ -111,6 +111,21 @@ TEST(Line, ForgetsAuthorsWhoseWorkIsDoneAndKeepsTheOrder) {
   EXPECT_EQ(last[1], 100);
 }
 
+TEST(Line, DoesNotForgetWhoIsStillAhead) {
+  Line line;
+  ASSERT_TRUE(line.push(edit(1, 1, 100 * kHuge)));
+  EXPECT_EQ(line.pop().command.author, 1u);  // nobody else is there, and the clock starts anew
+  ASSERT_TRUE(line.push(edit(1, 1, 100 * kHuge)) && line.push(edit(2, 1, 200 * kHuge)));
+  EXPECT_EQ(line.pop().command.author, 1u);
+  for (std::uint64_t stranger = 100; stranger < 3100; ++stranger) {
+    ASSERT_TRUE(line.push(edit(stranger, 1)));
+    (void)line.pop();
+  }
+  ASSERT_TRUE(line.push(edit(1, 2)) && line.push(edit(3, 1)) && line.push(edit(4, 1)));
+  const std::string order = drain(line);
+  EXPECT_TRUE(order.ends_with("1:2")) << order;
+}
+
 TEST(Line, SoManyPointsMayWaitAndNotOneMore) {
   Line line;
   for (int id = 1; id <= 4096; ++id)

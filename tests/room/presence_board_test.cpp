@@ -66,7 +66,7 @@ TEST_F(PresenceBoardTest, SaysWhoLeft) {
   EXPECT_EQ(board.news(1),
             (Presence{.all = false, .users = {}, .left = {session(2)}, .cursors = {}}));
   EXPECT_FALSE(board.news(2));
-  EXPECT_EQ(board.users(), std::vector<protocol::User>{user(1)});
+  EXPECT_EQ(board.users_for(1), std::vector<protocol::User>{user(1)});
 }
 
 TEST_F(PresenceBoardTest, SaysWhereTheyPointAndWithWhat) {
@@ -171,7 +171,8 @@ TEST_F(PresenceBoardTest, WritesTheSameNewsOnce) {
   std::set<const std::string*> texts;
   for (ViewerId id = 1; id <= 1000; ++id)
     if (const SharedText text = board.news_for(id)) texts.insert(text.get());
-  EXPECT_EQ(texts.size(), 2u);  // for the two, and for those who came
+  // For the two, for those who came when `joined` listed all, and for the others.
+  EXPECT_EQ(texts.size(), 3u);
 }
 
 TEST_F(PresenceBoardTest, WhoIsSoFarBehindIsToldEverythingAnew) {
@@ -208,13 +209,12 @@ TEST_F(PresenceBoardTest, SoManyDeparturesAreRememberedAndNotOneMore) {
 
 TEST_F(PresenceBoardTest, ListsSoManyAndNotOneMore) {
   for (ViewerId id = 3; id <= 1001; ++id) board.join(id);
-  EXPECT_EQ(board.users().size(), 1000u);
   board.point(1001, at(1, 1), 0);
   board.advance();
   auto news = board.news(1);
   EXPECT_EQ(news->users.size(), 998u);
   EXPECT_TRUE(news->cursors.empty());
-  EXPECT_EQ(board.news(1001)->users.size(), 998u);  // it sees the others all the same
+  EXPECT_EQ(board.news(1001)->users.size(), 1000u);  // it sees the others all the same
 
   board.leave(500);
   board.advance();
@@ -222,7 +222,36 @@ TEST_F(PresenceBoardTest, ListsSoManyAndNotOneMore) {
   EXPECT_EQ(news->users, std::vector<protocol::User>{user(1001)});
   EXPECT_EQ(news->left, std::vector<std::string>{session(500)});
   EXPECT_EQ(news->cursors.size(), 1u);
-  EXPECT_EQ(board.users().size(), 1000u);
+}
+
+TEST_F(PresenceBoardTest, AllAreListedAtOnceUpToSoManyAndNotOneMore) {
+  for (ViewerId id = 3; id <= 64; ++id) board.join(id);
+  ASSERT_EQ(board.users_for(64).size(), 64u);
+  EXPECT_EQ(board.users_for(64).back(), user(64));
+  board.join(65);
+  ASSERT_EQ(board.users_for(65).size(), 64u);
+  EXPECT_EQ(board.users_for(65).front(), user(1));
+  EXPECT_EQ(board.users_for(65).back(), user(65));
+  board.advance();
+  EXPECT_FALSE(board.news(64)->all);
+  const auto news = board.news(65);
+  EXPECT_TRUE(news->all);
+  EXPECT_EQ(news->users.size(), 65u);
+}
+
+TEST_F(PresenceBoardTest, WhoIsNotListedIsToldOfTheOthersToo) {
+  for (ViewerId id = 3; id <= 1000; ++id) board.join(id);
+  board.point(1, at(1, 1), 0);
+  board.advance();
+  (void)board.news(2);
+  board.join(1001);
+  ASSERT_TRUE(board.changed());
+  board.advance();
+  const auto news = board.news(1001);
+  ASSERT_TRUE(news);
+  EXPECT_EQ(news->users.size(), 1000u);
+  EXPECT_EQ(news->cursors.size(), 1u);
+  EXPECT_FALSE(board.news(2));  // they are not told of it
 }
 
 TEST(PresenceBoard, AMessageOfTheMostAndLongestFits) {
@@ -238,7 +267,7 @@ TEST(PresenceBoard, AMessageOfTheMostAndLongestFits) {
     board.point(id, cursor, 0);
   }
   board.advance();
-  const auto news = board.news(7);
+  const auto news = board.news(700);
   ASSERT_TRUE(news);
   EXPECT_EQ(news->users.size(), 1000u);
   EXPECT_EQ(news->cursors.size(), 1000u);
@@ -280,7 +309,7 @@ TEST(PresenceBoard, EverybodyEndsWithTheSamePicture) {
       if (found == sessions.end()) {
         board.enter(++last, user(one));
         sessions[last] = one;
-        for (const auto& other : board.users()) readers[last].users[other.session] = other;
+        for (const auto& other : board.users_for(last)) readers[last].users[other.session] = other;
       } else if (what == 0) {
         board.leave(found->first);
         readers.erase(found->first);
