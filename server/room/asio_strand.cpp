@@ -27,10 +27,15 @@ void run_alone(const Strand::Task& task) {
 
 class AsioStrand final : public Strand {
  public:
-  explicit AsioStrand(asio::any_io_executor serial) : serial_(std::move(serial)) {}
+  AsioStrand(asio::any_io_executor serial, asio::any_io_executor beside)
+      : serial_(std::move(serial)), beside_(std::move(beside)) {}
 
   void post(Task task) override {
     asio::post(serial_, [run = std::move(task)] { run_alone(run); });
+  }
+
+  void post_aside(Task task) override {
+    asio::post(beside_, [run = std::move(task)] { run_alone(run); });
   }
 
   void post_after(std::chrono::milliseconds delay, Task task) override {
@@ -47,17 +52,17 @@ class AsioStrand final : public Strand {
   }
 
  private:
-  asio::any_io_executor serial_;
+  asio::any_io_executor serial_, beside_;
 };
 
 }  // namespace
 
 std::unique_ptr<Strand> make_asio_strand(const asio::any_io_executor& executor) {
-  return std::make_unique<AsioStrand>(asio::make_strand(executor));
+  return std::make_unique<AsioStrand>(asio::make_strand(executor), executor);
 }
 
 std::unique_ptr<Strand> wrap_serial_executor(const asio::any_io_executor& executor) {
-  return std::make_unique<AsioStrand>(executor);
+  return std::make_unique<AsioStrand>(executor, executor);
 }
 
 }  // namespace earthwork::room

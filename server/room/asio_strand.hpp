@@ -11,7 +11,8 @@ namespace earthwork::room {
 /// A new strand on `executor`, whose context must outlive it.
 [[nodiscard]] std::unique_ptr<Strand> make_asio_strand(
     const boost::asio::any_io_executor& executor);
-/// The same over an executor that already runs one task at a time, such as a session's.
+/// The same over an executor that already runs one task at a time, such as a session's. What is
+/// posted aside runs there too: it knows no other.
 [[nodiscard]] std::unique_ptr<Strand> wrap_serial_executor(
     const boost::asio::any_io_executor& executor);
 

@@ -9,6 +9,7 @@ class ManualContext::ManualStrand final : public Strand {
   explicit ManualStrand(ManualContext& context) : context_(context) {}
 
   void post(Task task) override { context_.tasks_.push_back(std::move(task)); }
+  void post_aside(Task task) override { post(std::move(task)); }
   void post_after(std::chrono::milliseconds delay, Task task) override {
     context_.later_.emplace(context_.now_ + delay, std::move(task));
   }
@@ -22,9 +23,9 @@ std::unique_ptr<Strand> ManualContext::make_strand() {
   return std::make_unique<ManualStrand>(*this);
 }
 
-int ManualContext::run() {
+int ManualContext::run(int most) {
   int ran = 0;
-  for (; !tasks_.empty(); ++ran) {
+  for (; ran < most && !tasks_.empty(); ++ran) {
     const Strand::Task task = std::move(tasks_.front());
     tasks_.pop_front();
     task();

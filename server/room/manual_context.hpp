@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -14,12 +15,12 @@ namespace earthwork::room {
 /// One thread only. Outlives its strands; tasks that never ran end with it.
 class ManualContext {
  public:
-  /// All strands of a context share one order.
+  /// All strands of a context share one order, and so does what they post aside.
   [[nodiscard]] std::unique_ptr<Strand> make_strand();
 
-  /// Runs tasks, also those that they post, until none is left. Gives back how many ran. What a
-  /// task throws comes out; the next call goes on with those after it.
-  int run();
+  /// Runs tasks, also those that they post, until none is left or `most` have run. Gives back how
+  /// many ran. What a task throws comes out; the next call goes on with those after it.
+  int run(int most = std::numeric_limits<int>::max());
   /// Lets time pass, and runs what falls due meanwhile.
   void advance(std::chrono::milliseconds time);
   [[nodiscard]] std::chrono::milliseconds now() const { return now_; }

@@ -1,10 +1,10 @@
 #include "server/room/publisher.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "protocol/limits.hpp"
+#include "server/room/meshing_time.hpp"
 
 namespace earthwork::room {
 namespace {
@@ -12,15 +12,20 @@ namespace {
 // A group without a chunk says how far the map is: at most 10 a second.
 constexpr std::chrono::milliseconds kBeat{100};
 
+// Up to so many meshes are made on the strand: they take no longer than to hand them to the pool
+// and back would.
+constexpr std::size_t kMadeHere = 8;
+
 }  // namespace
 
-Publisher::Publisher(const voxel::Map& map, const protocol::MapSettings& settings,
-                     std::uint64_t epoch, Later later)
-    : map_(map),
-      settings_(settings),
-      epoch_(epoch),
+Publisher::Publisher(Subject subject, Later later, std::function<Workplace()> workplace)
+    : map_(subject.map),
+      settings_(subject.settings),
+      epoch_(subject.epoch),
+      meters_(std::move(subject.meters)),
       later_(std::move(later)),
-      meshes_(settings.max_feature_angle) {}
+      workplace_(std::move(workplace)),
+      maker_(settings_.max_feature_angle) {}
 
 void Publisher::enter(ViewerId id, Viewer& viewer) { shows_[id].viewer = &viewer; }
 
@@ -44,22 +49,99 @@ protocol::Result<void> Publisher::look(ViewerId id, const protocol::View& view) 
 void Publisher::ready(ViewerId id) {
   const auto found = shows_.find(id);
   if (found == shows_.end()) return;
-  found->second.ready = true;
-  publish_to(found->second, Beat::wait);
+  Show& show = found->second;
+  show.ready = true;
+  if (!round_) {
+    RoundPlan plan(meshes_);
+    show.subscription.plan_owed(plan);
+    show.subscription.plan_first_load(plan);
+    make(plan.keys());
+  }
+  publish_to(show, Beat::wait);
 }
 
 void Publisher::changed(const voxel::Change& change) {
-  meshes_.mark_stale(change);
-  for (const voxel::DirtyChunk& chunk : change.dirty) dirty_.push_back(chunk.key);
+  for (const voxel::DirtyChunk& chunk : change.dirty) pending_.insert(chunk.key);
 }
 
 void Publisher::show(std::uint64_t seq) {
-  seq_ = seq;
-  std::sort(dirty_.begin(), dirty_.end());
-  dirty_.erase(std::unique(dirty_.begin(), dirty_.end()), dirty_.end());
-  for (auto& [id, show] : shows_) show.subscription.owe(dirty_);
-  dirty_.clear();
+  latest_ = seq;
+  if (!round_) go_on();
+}
+
+// Not while a round runs: until it is over, meshes_ and what viewers are owed stay as of its seq.
+void Publisher::go_on() {
+  take_in_pending();
+  make(plan_for_all().keys());
   publish(Beat::wait);
+}
+
+void Publisher::take_in_pending() {
+  seq_ = latest_;
+  if (pending_.empty()) return;
+  const std::vector<voxel::ChunkKey> dirty(pending_.begin(), pending_.end());
+  pending_.clear();
+  meshes_.mark_stale(dirty);
+  for (auto& [id, show] : shows_) show.subscription.owe(dirty);
+}
+
+RoundPlan Publisher::plan_for_all() {
+  RoundPlan plan(meshes_);
+  for (const auto& [id, show] : shows_)
+    if (show.ready) show.subscription.plan_owed(plan);
+  // First loads take turns, because one round may not have room for all.
+  auto next = shows_.upper_bound(last_loader_);
+  for (std::size_t left = shows_.size(); left > 0 && plan.takes_first_seen(); --left, ++next) {
+    if (next == shows_.end()) next = shows_.begin();
+    if (next->second.ready) next->second.subscription.plan_first_load(plan);
+    last_loader_ = next->first;
+  }
+  return plan;
+}
+
+void Publisher::make(const std::vector<voxel::ChunkKey>& keys) {
+  if (keys.size() > kMadeHere)
+    start_round(keys);
+  else if (!keys.empty())
+    make_here(keys);
+}
+
+void Publisher::make_here(std::span<const voxel::ChunkKey> keys) {
+  const MeshingTime time(*meters_, keys.size());
+  for (const voxel::ChunkKey& key : keys)
+    meshes_.put(key, maker_.make(key, map_.neighbourhood(key), map_.grid().resolution,
+                                 meshes_.find(key), seq_));
+}
+
+void Publisher::start_round(std::span<const voxel::ChunkKey> keys) {
+  while (makers_.size() < kSlicesAtOnce)
+    makers_.push_back(std::make_unique<MeshMaker>(settings_.max_feature_angle));
+  round_ = std::make_shared<MeshRound>(map_, meshes_, keys, seq_);
+  round_->start(workplace_(), std::exchange(makers_, {}), meters_, [this, started = round_.get()] {
+    if (round_.get() != started) return;  // `refresh` has ended it
+    end_round();
+    go_on();
+  });
+}
+
+// What was made is shown before anything newer is taken in: so every round brings everybody in it
+// further, however fast edits come.
+void Publisher::end_round() {
+  makers_ = std::exchange(round_, nullptr)->finish(meshes_);
+  publish(Beat::wait);
+}
+
+bool Publisher::refresh(std::size_t budget) {
+  if (round_) {
+    if (!round_->help(maker_, budget)) return false;
+    end_round();
+  }
+  take_in_pending();
+  if (meshes_.stale_count() > 0) {
+    make_here(meshes_.some_stale(budget));
+    publish_soon();
+  }
+  return meshes_.stale_count() == 0;
 }
 
 void Publisher::publish(Beat beat) {
@@ -73,7 +155,7 @@ void Publisher::publish_to(Show& show, Beat beat) {
     if (Parcel parcel = show.subscription.compose(state(), beat); !parcel.empty()) {
       show.ready = false;
       show.viewer->deliver(std::move(parcel));
-    } else if (show.subscription.waiting()) {
+    } else if (show.subscription.waiting() && !round_) {
       publish_soon();  // a stretch of a first load that held nothing
     }
   }
@@ -85,7 +167,10 @@ void Publisher::publish_soon() {
   publish_scheduled_ = true;
   later_(std::chrono::milliseconds{0}, [this] {
     publish_scheduled_ = false;
-    publish(Beat::wait);
+    if (round_)
+      publish(Beat::wait);
+    else
+      go_on();
   });
 }
 

@@ -7,12 +7,19 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "protocol/messages.hpp"
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
 #include "server/room/mesh_cache.hpp"
+#include "server/room/mesh_maker.hpp"
+#include "server/room/mesh_round.hpp"
+#include "server/room/meters.hpp"
+#include "server/room/round_plan.hpp"
 #include "server/room/subscription.hpp"
 #include "server/room/viewer.hpp"
 #include "server/voxel/change.hpp"
@@ -23,15 +30,27 @@ namespace earthwork::room {
 /// Given when a viewer joins; never used twice in one room.
 using ViewerId = std::uint64_t;
 
+/// Meshes are made in rounds: all that viewers who are ready wait for, as of the seq that is shown,
+/// which then stays until the round is over. A small round is made at once; a larger one on the
+/// thread pool, while the map goes on. So what is shown is behind the map by a round at most, is
+/// consistent at any time, and no round is ever made in vain.
+///
 /// On the strand of the room whose part it is.
 class Publisher {
  public:
+  /// What is shown. The map is empty and outlives the publisher, has these settings, and is changed
+  /// between calls only.
+  struct Subject {
+    const voxel::Map& map;
+    const protocol::MapSettings& settings;
+    std::uint64_t epoch;
+    std::shared_ptr<Meters> meters;
+  };
   /// Runs a task on that strand after a delay, or not at all when the room is gone by then.
   using Later = std::function<void(std::chrono::milliseconds delay, std::function<void()> task)>;
 
-  /// `map` is empty, has these settings and outlives the publisher.
-  Publisher(const voxel::Map& map, const protocol::MapSettings& settings, std::uint64_t epoch,
-            Later later);
+  /// `workplace` is called on the strand, for each round.
+  Publisher(Subject subject, Later later, std::function<Workplace()> workplace);
 
   /// Who enters looks at nothing yet. `viewer` stays until it leaves.
   void enter(ViewerId id, Viewer& viewer);
@@ -47,18 +66,21 @@ class Publisher {
 
   /// The map was changed so by its latest edit.
   void changed(const voxel::Change& change);
-  /// Every change up to `seq` was told: delivers what the viewers who are ready are to be sent.
+  /// Every change up to `seq` was told: delivers what the viewers who are ready are to be sent, now
+  /// or when the round that runs is over.
   void show(std::uint64_t seq);
 
-  /// Brings up to `budget` chunks' meshes up to date; true when all are.
-  [[nodiscard]] bool refresh(std::size_t budget) { return meshes_.refresh(map_, seq_, budget); }
+  /// Brings up to `budget` chunks' meshes up to date with the map, or a few more; true when all
+  /// are. May deliver parcels.
+  [[nodiscard]] bool refresh(std::size_t budget);
+  /// As of the map's latest edit when `refresh` gave true in the same task.
   [[nodiscard]] const MeshTotals& totals() const { return meshes_.totals(); }
   [[nodiscard]] std::vector<RecordBytes> records() const { return meshes_.records(); }
 
   /// Chunks that wait to be sent, of all viewers together.
   [[nodiscard]] std::size_t owed_chunks() const;
   /// Chunks whose meshes are not up to date.
-  [[nodiscard]] std::size_t dirty_chunks() const { return meshes_.stale_count(); }
+  [[nodiscard]] std::size_t dirty_chunks() const { return meshes_.stale_count() + pending_.size(); }
 
  private:
   struct Show {
@@ -67,21 +89,35 @@ class Publisher {
     bool ready = true;  // to take a parcel
   };
 
+  void go_on();
+  void take_in_pending();
+  [[nodiscard]] RoundPlan plan_for_all();
+  void make(const std::vector<voxel::ChunkKey>& keys);
+  void make_here(std::span<const voxel::ChunkKey> keys);
+  void start_round(std::span<const voxel::ChunkKey> keys);
+  void end_round();
   void publish(Beat beat);
   void publish_to(Show& show, Beat beat);
   void publish_soon();
   void schedule_beat();
-  [[nodiscard]] MapState state() { return {map_, meshes_, epoch_, seq_}; }
+  [[nodiscard]] MapState state() const { return {meshes_, epoch_, seq_}; }
 
   const voxel::Map& map_;
   const protocol::MapSettings settings_;
   const std::uint64_t epoch_;
+  const std::shared_ptr<Meters> meters_;
   const Later later_;
+  const std::function<Workplace()> workplace_;
 
-  MeshCache meshes_;
-  std::uint64_t seq_ = 0;
-  std::vector<voxel::ChunkKey> dirty_;  // since the last show, not in order
+  MeshCache meshes_;          // as of seq_,
+  std::uint64_t seq_ = 0;     // which is shown, as far as meshes are made
+  std::uint64_t latest_ = 0;  // the map's: ahead of seq_ during a round only
+  std::unordered_set<voxel::ChunkKey, voxel::ChunkKeyHash> pending_;  // different in between
+  std::shared_ptr<MeshRound> round_;                                  // that runs
+  MeshMaker maker_;                                                   // the strand's
+  MeshRound::Makers makers_;                                          // for rounds, when none runs
   std::map<ViewerId, Show> shows_;
+  ViewerId last_loader_ = 0;  // whose first load was the last in a plan
   bool publish_scheduled_ = false, beat_scheduled_ = false;
 };
 

@@ -16,6 +16,8 @@ class Strand {
 
   virtual ~Strand() = default;
   virtual void post(Task task) = 0;
+  /// Runs a task beside the strand, on the threads that it shares with others, in no order.
+  virtual void post_aside(Task task) = 0;
   virtual void post_after(std::chrono::milliseconds delay, Task task) = 0;
   /// Milliseconds since 1970, UTC.
   [[nodiscard]] virtual std::int64_t now_ms() const = 0;

@@ -1,14 +1,15 @@
 #include "server/room/subscription.hpp"
 
-#include <iterator>
+#include <algorithm>
 
 namespace earthwork::room {
 namespace {
 
-// A parcel of a first load ends after either: so that groups get between, and that the strand is
-// not held for long.
+// A parcel of a first load ends after either: so that groups get between.
 constexpr std::size_t kFirstLoadBytes = 64 * 1024;
 constexpr int kFirstLoadChunks = 128;
+// A parcel's bytes of chunks as they are mostly: so many are meshed ahead.
+constexpr int kFirstLoadMeshes = 64;
 
 }  // namespace
 
@@ -59,9 +60,21 @@ void Subscription::owe(std::span<const voxel::ChunkKey> dirty) {
     if (area_.contains(key) && !unseen_.contains(ranked(key))) owed_.insert(key);
 }
 
+void Subscription::plan_owed(RoundPlan& plan) const {
+  for (const voxel::ChunkKey& key : owed_) plan.add_owed(key);
+}
+
+void Subscription::plan_first_load(RoundPlan& plan) const {
+  int chunks = 0, meshes = 0;
+  for (auto next = unseen_.begin(); next != unseen_.end() && chunks < kFirstLoadChunks &&
+                                    meshes < kFirstLoadMeshes && plan.takes_first_seen();
+       ++next, ++chunks)
+    meshes += plan.add_first_seen(next->second) ? 1 : 0;
+}
+
 Parcel Subscription::compose(const MapState& state, Beat beat) {
   Parcel parcel;
-  if (!looks_) return parcel;
+  if (!looks_ || owes_stale(state.meshes)) return parcel;
   parcel.group_records = take_owed(state);
   parcel.first_seen = take_unseen(state);
   complete_seq_ = state.seq;
@@ -78,10 +91,15 @@ Parcel Subscription::compose(const MapState& state, Beat beat) {
   return parcel;
 }
 
+bool Subscription::owes_stale(const MeshCache& meshes) const {
+  return std::any_of(owed_.begin(), owed_.end(),
+                     [&](const voxel::ChunkKey& key) { return meshes.stale(key); });
+}
+
 std::vector<RecordBytes> Subscription::take_owed(const MapState& state) {
   std::vector<RecordBytes> records;
   for (const voxel::ChunkKey& key : owed_) {
-    const CachedMesh* cached = state.meshes.current(state.map, key, state.seq);
+    const CachedMesh* cached = state.meshes.find(key);
     if (cached && cached->revision > complete_seq_) records.push_back(cached->bytes);
   }
   owed_.clear();
@@ -94,8 +112,9 @@ std::vector<RecordBytes> Subscription::take_unseen(const MapState& state) {
   for (int chunks = 0; !unseen_.empty() && bytes < kFirstLoadBytes && chunks < kFirstLoadChunks;
        ++chunks) {
     const voxel::ChunkKey key = unseen_.begin()->second;
+    if (state.meshes.stale(key)) break;
     unseen_.erase(unseen_.begin());
-    const CachedMesh* cached = state.meshes.current(state.map, key, state.seq);
+    const CachedMesh* cached = state.meshes.find(key);
     if (!cached || already_has(key, *cached)) continue;
     records.push_back(cached->bytes);
     bytes += cached->bytes->size();

@@ -10,15 +10,15 @@
 
 #include "protocol/messages.hpp"
 #include "server/room/mesh_cache.hpp"
+#include "server/room/round_plan.hpp"
 #include "server/room/view_area.hpp"
 #include "server/room/viewer.hpp"
 
 namespace earthwork::room {
 
-/// The map that a parcel is composed from, as of `seq`.
+/// What a parcel is composed from: a map's meshes as of `seq`, as far as they are made.
 struct MapState {
-  const voxel::Map& map;
-  MeshCache& meshes;
+  const MeshCache& meshes;
   std::uint64_t epoch, seq;
 };
 
@@ -35,11 +35,17 @@ class Subscription {
   /// These chunks' cells changed.
   void owe(std::span<const voxel::ChunkKey> dirty);
 
+  /// What must be meshed before anything can be composed.
+  void plan_owed(RoundPlan& plan) const;
+  /// What is to be meshed for the next few chunks of a first load.
+  void plan_first_load(RoundPlan& plan) const;
+
   /// All that is owed, as one group, and the next few chunks of a first load, nearest to the
-  /// view's middle first. Empty when there is nothing to say now.
+  /// view's middle first, up to one that is not made yet. Empty when there is nothing to say now,
+  /// and while anything owed is not made: so neighbours never come apart.
   [[nodiscard]] Parcel compose(const MapState& state, Beat beat);
 
-  /// Something would be composed.
+  /// Something would be composed, were it made.
   [[nodiscard]] bool waiting() const { return looks_ && (!owed_.empty() || !caught_up_); }
   /// The viewer was told of an earlier seq than this one.
   [[nodiscard]] bool behind(std::uint64_t seq) const { return looks_ && told_seq_ < seq; }
@@ -56,6 +62,7 @@ class Subscription {
     return {area_.distance(key), key};
   }
   std::vector<voxel::ChunkKey> candidates(const ViewArea& area, const MeshCache& meshes) const;
+  bool owes_stale(const MeshCache& meshes) const;
   std::vector<RecordBytes> take_owed(const MapState& state);
   std::vector<RecordBytes> take_unseen(const MapState& state);
   bool already_has(const voxel::ChunkKey& key, const CachedMesh& cached) const;

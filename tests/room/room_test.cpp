@@ -303,6 +303,7 @@ TEST(Room, AMistakeOfItsOwnClosesItWithAWord) {
   struct Broken final : Strand {
     explicit Broken(std::unique_ptr<Strand> strand) : inner(std::move(strand)) {}
     void post(Task task) override { inner->post(std::move(task)); }
+    void post_aside(Task task) override { inner->post_aside(std::move(task)); }
     void post_after(std::chrono::milliseconds delay, Task task) override {
       inner->post_after(delay, std::move(task));
     }

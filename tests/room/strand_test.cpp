@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/asio/strand.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <future>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -66,6 +69,53 @@ TEST(AsioStrand, RunsOneTaskAtATimeInOrder) {
   pool.join();
   ASSERT_EQ(ran.size(), 1000u);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(ran[static_cast<std::size_t>(i)], i);
+}
+
+TEST(ManualContext, RunsSoManyTasksAndNoMore) {
+  ManualContext context;
+  const auto strand = context.make_strand();
+  std::vector<int> ran;
+  for (int i = 0; i < 5; ++i) strand->post([&ran, i] { ran.push_back(i); });
+  EXPECT_EQ(context.run(2), 2);
+  EXPECT_EQ(ran, (std::vector<int>{0, 1}));
+  EXPECT_EQ(context.run(), 3);
+}
+
+TEST(ManualContext, RunsWhatIsPostedAsideToo) {
+  ManualContext context;
+  const auto strand = context.make_strand();
+  int ran = 0;
+  strand->post_aside([&] { ++ran; });
+  EXPECT_EQ(ran, 0);
+  EXPECT_EQ(context.run(), 1);
+  EXPECT_EQ(ran, 1);
+}
+
+TEST(AsioStrand, RunsWhatIsPostedAsideBesideItsTasks) {
+  boost::asio::thread_pool pool(2);
+  const auto strand = make_asio_strand(pool.get_executor());
+  std::promise<void> told;
+  bool heard = false;
+  // Would wait for ever, were the other one of the strand's tasks.
+  strand->post([&, future = std::make_shared<std::future<void>>(told.get_future())] {
+    heard = future->wait_for(std::chrono::minutes(1)) == std::future_status::ready;
+  });
+  strand->post_aside([&] { told.set_value(); });
+  pool.join();
+  EXPECT_TRUE(heard);
+}
+
+TEST(AsioStrand, OverASerialExecutorKnowsNoOther) {
+  boost::asio::thread_pool pool(2);
+  const auto strand = wrap_serial_executor(boost::asio::make_strand(pool));
+  std::vector<int> ran;  // unguarded
+  for (int i = 0; i < 100; ++i) {
+    strand->post([&ran, i] { ran.push_back(i); });
+    strand->post_aside([&ran, i] { ran.push_back(-i); });
+  }
+  strand->post_aside([] { throw 7; });
+  pool.join();
+  EXPECT_EQ(ran.size(), 200u);
 }
 
 TEST(AsioStrand, WaitsAsLongAsItIsTold) {

@@ -42,10 +42,11 @@ void World::edit(Guest& guest, protocol::Edit edit) {
 }
 
 void World::settle(Guest& guest) {
+  context.run();
   for (std::size_t taken = SIZE_MAX; taken != guest.eyes->parcels.size();) {
-    context.run();
     taken = guest.eyes->parcels.size();
     room->ready(guest.id);
+    context.run();
   }
 }
 

@@ -59,7 +59,7 @@ TEST(KeptNeighbourhood, OutlivesItsMap) {
 /// Whatever becomes of the map, what was kept stays; and whoever keeps what, the map becomes what
 /// it would have become.
 TEST(KeptNeighbourhood, NeitherSideNoticesTheOther) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const Grid grid = *any_grid();
     Map map(grid), alone(grid);
     std::vector<std::pair<KeptNeighbourhood, std::vector<std::uint64_t>>> kept;
@@ -73,7 +73,7 @@ TEST(KeptNeighbourhood, NeitherSideNoticesTheOther) {
     }
     for (const auto& [chunks, then] : kept)
       RC_ASSERT(hashes(chunks.view(), grid.resolution) == then);
-  });
+  }));
 }
 
 }  // namespace

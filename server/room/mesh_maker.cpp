@@ -1,0 +1,49 @@
+#include "server/room/mesh_maker.hpp"
+
+#include <string_view>
+#include <utility>
+
+#include "protocol/record_format.hpp"
+
+namespace earthwork::room {
+namespace {
+
+/// What of a full record does not depend on its revision. The chunk's key is left out too.
+std::string_view mesh_part(std::string_view record) {
+  return record.substr(protocol::kRecordLengthBytes + protocol::kRecordHeadBytes);
+}
+
+CachedMesh removal(const voxel::ChunkKey& key, std::uint64_t seq) {
+  std::string bytes;
+  protocol::encode_record({.key = to_protocol(key), .revision = seq, .removed = true, .mesh = {}},
+                          bytes);
+  bytes.shrink_to_fit();
+  return {.bytes = std::make_shared<const std::string>(std::move(bytes)),
+          .revision = seq,
+          .removed = true};
+}
+
+}  // namespace
+
+std::optional<CachedMesh> MeshMaker::make(const voxel::ChunkKey& key,
+                                          const voxel::Neighbourhood& chunks, int resolution,
+                                          const CachedMesh* before, std::uint64_t seq) {
+  const bool had_mesh = before && !before->removed;
+  mesher_.mesh(chunks, resolution, mesh_);
+  if (mesh_.empty()) return had_mesh ? std::optional(removal(key, seq)) : std::nullopt;
+
+  const protocol::ChunkRecord record{
+      .key = to_protocol(key), .revision = seq, .mesh = to_protocol(mesh_)};
+  bytes_.clear();
+  protocol::encode_record(record, bytes_);
+  if (had_mesh && mesh_part(bytes_) == mesh_part(*before->bytes)) return std::nullopt;
+  return CachedMesh{
+      .bytes = std::make_shared<const std::string>(bytes_.begin(), bytes_.end()),
+      .revision = seq,
+      .removed = false,
+      .hash_term = protocol::mesh_hash_term(record.key, protocol::mesh_hash(record.mesh)),
+      .triangles = record.mesh.triangles.size() / 3,
+      .vertices = record.mesh.vertices.size()};
+}
+
+}  // namespace earthwork::room
