@@ -174,6 +174,17 @@ test('another map of that name is not painted on', inTime, async (t) => {
   assert.equal((await describeMap(url, 'replaced')).seq, 0);
 });
 
+test('a server that ends says when to come back', inTime, async (t) => {
+  const other = await startServer();
+  await createMap(other.url, 'ending');
+  const client = await join(t, other.url, 'ending');
+  const lost = once(client, 'lost');
+  assert.equal(await other.stop(), 0);
+  const [why] = await lost;
+  assert.equal(why.message, 'the server ends');
+  assert.equal(why.retryAfterMs, 1000);
+});
+
 test('a client that is closed stays away', inTime, async (t) => {
   await createMap(url, 'closed');
   const wire = await layWire(t, url);
