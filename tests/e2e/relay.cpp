@@ -14,6 +14,8 @@
 namespace earthwork::e2e {
 namespace {
 
+// Sockets close on exec: a program that a test starts meanwhile would hold them open.
+constexpr int kSocket = SOCK_STREAM | SOCK_CLOEXEC;
 constexpr int kLookAgainMs = 10;
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
@@ -56,7 +58,7 @@ bool readable(int socket) {
 class Relay::Wire {
  public:
   Wire(Relay& relay, int client, const link::ServerAddress& server)
-      : relay_(relay), ends_{client, socket(AF_INET, SOCK_STREAM, 0)}, server_(server) {}
+      : relay_(relay), ends_{client, socket(AF_INET, kSocket, 0)}, server_(server) {}
 
   void carry() {
     const sockaddr_in to = loopback(server_.port);
@@ -107,7 +109,7 @@ class Relay::Wire {
 };
 
 Relay::Relay(const link::ServerAddress& server, Plan plan)
-    : plan_(std::move(plan)), server_(server), listener_(socket(AF_INET, SOCK_STREAM, 0)) {
+    : plan_(std::move(plan)), server_(server), listener_(socket(AF_INET, kSocket, 0)) {
   sockaddr_in here = loopback(0);
   socklen_t size = sizeof here;
   if (bind(listener_, generic(here), sizeof here) != 0 || listen(listener_, 16) != 0 ||
@@ -131,7 +133,8 @@ void Relay::lead_to(const link::ServerAddress& server) {
 void Relay::run() {
   while (!ended_)
     if (readable(listener_))
-      if (const int client = accept(listener_, nullptr, nullptr); client >= 0) serve(client);
+      if (const int client = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC); client >= 0)
+        serve(client);
 }
 
 void Relay::serve(int client) {
