@@ -27,9 +27,6 @@
 
 namespace earthwork::room {
 
-/// Given when a viewer joins; never used twice in one room.
-using ViewerId = std::uint64_t;
-
 /// Meshes are made in rounds: all that viewers who are ready wait for, as of the seq that is shown,
 /// which then stays until the round is over. A small round is made at once; a larger one on the
 /// thread pool, while the map goes on. So what is shown is behind the map by a round at most, is
