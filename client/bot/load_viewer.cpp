@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
 constexpr double kSlowBytesPerSecond = 1024;
-constexpr int kSmallReceiveBytes = 4096;
+constexpr int kSmallReceiveBytes = 16 * 1024;
 constexpr auto kMaxStall = 60s;
 constexpr auto kLeastStay = 100ms, kMostStay = 8000ms;  // of a flaky one
 constexpr auto kLeastAway = 10ms, kMostAway = 500ms;
