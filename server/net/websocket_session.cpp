@@ -33,8 +33,10 @@ constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 // Small, so that control never waits behind megabytes that the kernel has already taken.
 constexpr int kSendBufferBytes = 64 * 1024, kSendLowWaterBytes = 16 * 1024;
 
-// Messages for one call. Beyond it, what is said later may still go before what waits.
-constexpr std::size_t kEnoughBytes = 32 * 1024;
+// Messages for one call, and the one that crosses it: a group of 16 KiB leaves as a whole. What is
+// not taken yet can still be overtaken, and what a viewer that does not read leaves here stays
+// below 37 KiB.
+constexpr std::size_t kEnoughBytes = 20 * 1024;
 constexpr std::size_t kKeptBufferBytes = 4096;
 
 /// A whole number among TCP's socket options, as Asio takes options.
@@ -62,12 +64,12 @@ struct TcpOption {
 using Stream = websocket::stream<BufferedSocket, false>;
 
 /// Counts a session among those that are open.
-class Presence {
+class OpenSession {
  public:
-  explicit Presence(room::Meters& meters) : meters_(meters) { ++meters_.sessions; }
-  ~Presence() { --meters_.sessions; }
-  Presence(const Presence&) = delete;
-  Presence& operator=(const Presence&) = delete;
+  explicit OpenSession(room::Meters& meters) : meters_(meters) { ++meters_.sessions; }
+  ~OpenSession() { --meters_.sessions; }
+  OpenSession(const OpenSession&) = delete;
+  OpenSession& operator=(const OpenSession&) = delete;
 
  private:
   room::Meters& meters_;
@@ -169,7 +171,7 @@ awaitable<void> WebSocketSession::converse(std::string handshake) {
   set_options();
   const auto [error] = co_await ws_.async_accept(asio::buffer(handshake), kAwait);
   if (error) co_return;
-  const Presence presence(meters_);
+  const OpenSession open(meters_);
   opened_ = Clock::now();
   flush_soon();  // bye may have been said already
   co_await (read() || say_farewell() || watch());
@@ -266,7 +268,8 @@ beast::error_code WebSocketSession::send_more() {
     return {};
   }
   conversation_->written();
-  if (messages.size() >= kEnoughBytes) flush_soon();
+  // What the kernel does not need yet stays with the room, where it costs less and is kept new.
+  if (messages.size() >= kEnoughBytes) wait_writable();
   return {};
 }
 

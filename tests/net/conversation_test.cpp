@@ -212,11 +212,14 @@ TEST_F(ConversationTest, ALeaveIsDoneAfterTheEditsBeforeIt) {
   for (int round = 0; round < 2 * kMaxUnanswered; ++round) {
     talk.one<protocol::Joined>(kJoin);
     ASSERT_TRUE(talk.conversation->may_read());
-    talk.conversation->receive(kEdit);
+    const int id = 10 + round;
+    talk.conversation->receive(
+        R"({"type":"edit","stencil":"circle","fill":true,"x":5,"y":5,"radius":3,"id":)" +
+        std::to_string(id) + "}");
     talk.conversation->receive(R"({"type":"leave","id":5})");
     const auto heard = talk.hear();
     ASSERT_EQ(heard.size(), 2u);
-    EXPECT_EQ(std::get<protocol::Applied>(heard[0]).id, 4);
+    EXPECT_EQ(std::get<protocol::Applied>(heard[0]).id, id);
     EXPECT_EQ(std::get<protocol::Done>(heard[1]).id, 5);
     ASSERT_TRUE(talk.conversation->may_read());
   }
@@ -245,6 +248,103 @@ TEST_F(ConversationTest, WhatIsNotOfferedYetIsSaidSo) {
   talk.one<protocol::Welcome>(kHello);
   talk.refused(R"({"type":"undo","id":3})", Code::not_supported, 3);
   talk.refused(R"({"type":"redo","id":4})", Code::not_supported, 4);
+}
+
+TEST_F(ConversationTest, ACursorIsDoneWhenItAsksForIt) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  EXPECT_EQ(talk.one<protocol::Done>(R"({"type":"cursor","x":1,"y":2,"id":5})").id, 5);
+  EXPECT_TRUE(talk.say(R"({"type":"cursor","x":1,"y":2})").empty());
+  talk.refused(R"({"type":"cursor","x":1e300,"y":2,"id":6})", Code::out_of_range, 6);
+  talk.refused(R"({"type":"cursor","x":1e300,"y":2})", Code::out_of_range, {});
+}
+
+TEST_F(ConversationTest, OfCursorsInARowTheLatestGoesToTheRoom) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(talk.conversation->may_read()) << i;
+    // Only the first and the last one are where they may not be.
+    const bool far = i == 0 || i == 999;
+    talk.conversation->receive(R"({"type":"cursor","x":)" + std::string(far ? "1e300" : "1") +
+                               R"(,"y":2})");
+  }
+  EXPECT_LT(context.run(), 20);
+  EXPECT_EQ(talk.hear().size(), 2u);
+}
+
+TEST_F(ConversationTest, EveryCursorWithAnIdIsAnsweredInOrder) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  int sent = 0;
+  while (talk.conversation->may_read())
+    talk.conversation->receive(R"({"type":"cursor","x":1,"y":2,"id":)" + std::to_string(++sent) +
+                               "}");
+  EXPECT_EQ(sent, kMaxUnanswered);
+  const auto heard = talk.hear();
+  ASSERT_EQ(heard.size(), static_cast<std::size_t>(sent));
+  for (int i = 0; i < sent; ++i)
+    EXPECT_EQ(std::get<protocol::Done>(heard[static_cast<std::size_t>(i)]).id, i + 1);
+}
+
+TEST_F(ConversationTest, EventsComeFromThePastAndLive) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.one<protocol::Applied>(kEdit);
+  const auto past = talk.say(R"({"type":"events","from_seq":1,"id":6})");
+  ASSERT_EQ(past.size(), 2u);
+  EXPECT_EQ(std::get<protocol::Done>(past[0]).id, 6);
+  EXPECT_EQ(std::get<protocol::Event>(past[1]).seq, 1u);
+  // Each is told after the one before it was written, so a lost word would end them.
+  for (int id = 7; id < 12; ++id) {
+    const auto live =
+        talk.say(R"({"type":"edit","stencil":"square","fill":true,"x":9,"y":5,"radius":3,"id":)" +
+                 std::to_string(id) + "}");
+    ASSERT_EQ(live.size(), 2u) << id;
+    EXPECT_EQ(std::get<protocol::Applied>(live[0]).id, id);
+    EXPECT_EQ(std::get<protocol::Event>(live[1]).seq, static_cast<std::uint64_t>(id) - 5);
+  }
+  talk.refused(R"({"type":"events","from_seq":99,"id":20})", Code::out_of_range, 20);
+}
+
+TEST_F(ConversationTest, TalkOfAMapThatWasLeftIsThroughBeforeTheNextOneIsJoined) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.one<protocol::Applied>(kEdit);
+  talk.conversation->receive(R"({"type":"events","from_seq":1})");
+  context.run();  // the event is here, and not written
+  talk.conversation->receive(R"({"type":"leave","id":3})");
+  context.run();
+  EXPECT_FALSE(talk.conversation->may_read());
+  EXPECT_EQ(talk.take().size(), 1u);  // done
+  EXPECT_EQ(talk.take().size(), 1u);  // event
+  EXPECT_FALSE(talk.conversation->may_read());
+  talk.conversation->written();
+  EXPECT_TRUE(talk.conversation->may_read());
+}
+
+TEST_F(ConversationTest, RefusalsAndMessagesAreCounted) {
+  const room::Meters& meters = atlas.meters();
+  const auto rejected = [&](Code code) {
+    return meters.rejected[static_cast<std::size_t>(code)].load();
+  };
+  talk.refused(kJoin, Code::bad_state, 2);
+  talk.refused(kEdit, Code::bad_state, 4);
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.one<protocol::Applied>(kEdit);
+  talk.refused(R"({"type":"undo","id":9})", Code::not_supported, 9);
+  talk.refused("nonsense", Code::bad_json, {});
+  EXPECT_EQ(rejected(Code::bad_state), 2u);
+  EXPECT_EQ(rejected(Code::not_supported), 1u);
+  EXPECT_EQ(rejected(Code::bad_json), 1u);
+  EXPECT_EQ(rejected(Code::out_of_range), 0u);
+  EXPECT_EQ(meters.controls, 7u);
+  EXPECT_EQ(meters.frames, 0u);
+  talk.say(R"({"type":"view","n":1,"all":true})");
+  EXPECT_EQ(meters.controls, 8u);  // caught_up
+  EXPECT_EQ(meters.frames, 1u);
+  EXPECT_GT(meters.frame_bytes, 50u);
 }
 
 TEST_F(ConversationTest, WhatCannotBeReadIsRejectedWithItsId) {
