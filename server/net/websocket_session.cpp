@@ -246,7 +246,12 @@ void WebSocketSession::flush_soon() {
 
 void WebSocketSession::flush() {
   flushing_soon_ = false;
-  if (!stuck_ && socket().socket().is_open() && send_more()) socket().close();
+  try {
+    if (!stuck_ && socket().socket().is_open() && send_more()) socket().close();
+  } catch (...) {
+    socket().close();  // messages may be lost
+    throw;
+  }
   if (!socket().socket().is_open() || conversation_->ended()) said_all_.notify();
   // What was not read while too much waited may be read now.
   readable_.notify();
@@ -306,7 +311,7 @@ void WebSocketSession::check_time(Clock::time_point now) {
 
 void WebSocketSession::ping() {
   // What waits says, by leaving or by staying, whether the peer is there.
-  if (!socket().flushed() || !ws_.is_open() || conversation_->ending()) return;
+  if (stuck_ || !socket().flushed() || !ws_.is_open() || conversation_->ending()) return;
   if (socket().send_ping(kPing)) return socket().close();
   if (!socket().flushed()) wait_writable();
 }
