@@ -97,6 +97,7 @@ TEST_F(SurveyTest, HoweverManyAskAMapIsAskedOnceAtATime) {
       ++*tasks;
       inner->post(std::move(task));
     }
+    void post_aside(Task task) override { inner->post_aside(std::move(task)); }
     void post_after(std::chrono::milliseconds delay, Task task) override {
       inner->post_after(delay, std::move(task));
     }
