@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "protocol/record_delta.hpp"
 #include "protocol/record_format.hpp"
 
 namespace earthwork::room {
@@ -37,13 +38,19 @@ std::optional<CachedMesh> MeshMaker::make(const voxel::ChunkKey& key,
   bytes_.clear();
   protocol::encode_record(record, bytes_);
   if (had_mesh && mesh_part(bytes_) == mesh_part(*before->bytes)) return std::nullopt;
-  return CachedMesh{
+  CachedMesh made{
       .bytes = std::make_shared<const std::string>(bytes_.begin(), bytes_.end()),
       .revision = seq,
       .removed = false,
       .hash_term = protocol::mesh_hash_term(record.key, protocol::mesh_hash(record.mesh)),
       .triangles = record.mesh.triangles.size() / 3,
       .vertices = record.mesh.vertices.size()};
+  delta_.clear();
+  if (had_mesh && protocol::encode_delta(*before->bytes, bytes_, delta_)) {
+    made.delta = std::make_shared<const std::string>(delta_.begin(), delta_.end());
+    made.base_revision = before->revision;
+  }
+  return made;
 }
 
 }  // namespace earthwork::room

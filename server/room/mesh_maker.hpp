@@ -26,7 +26,7 @@ class MeshMaker {
  private:
   mesh::Mesher mesher_;
   mesh::ChunkMesh mesh_;
-  std::string bytes_;
+  std::string bytes_, delta_;
 };
 
 }  // namespace earthwork::room

@@ -23,6 +23,8 @@ struct CachedMesh {
   bool removed = false;
   std::uint64_t hash_term = 0;  ///< What it adds to the map's mesh hash; 0 when removed.
   std::size_t triangles = 0, vertices = 0;
+  RecordBytes delta{};              ///< From the mesh before it, where that takes fewer bytes;
+  std::uint64_t base_revision = 0;  ///< then that mesh's revision.
 };
 
 [[nodiscard]] protocol::ChunkKey to_protocol(const voxel::ChunkKey& key);

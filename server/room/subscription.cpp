@@ -46,7 +46,8 @@ void Subscription::look(const protocol::View& view, const protocol::MapSettings&
   unseen_.clear();
   for (const voxel::ChunkKey& key : candidates(area_, state.meshes))
     if (!before.contains(key) || unseen_before.contains(key)) unseen_.insert(ranked(key));
-  std::erase_if(owed_, [&](const voxel::ChunkKey& key) { return !area_.contains(key); });
+  for (auto* keys : {&owed_, &claimed_})
+    std::erase_if(*keys, [&](const voxel::ChunkKey& key) { return !area_.contains(key); });
 
   if (!looks_) complete_seq_ = state.seq;  // it has nothing yet, so nothing that is older
   looks_ = true;
@@ -100,7 +101,7 @@ std::vector<RecordBytes> Subscription::take_owed(const MapState& state) {
   std::vector<RecordBytes> records;
   for (const voxel::ChunkKey& key : owed_) {
     const CachedMesh* cached = state.meshes.find(key);
-    if (cached && cached->revision > complete_seq_) records.push_back(cached->bytes);
+    if (cached && cached->revision > complete_seq_) records.push_back(record_for(key, *cached));
   }
   owed_.clear();
   return records;
@@ -115,11 +116,24 @@ std::vector<RecordBytes> Subscription::take_unseen(const MapState& state) {
     if (state.meshes.stale(key)) break;
     unseen_.erase(unseen_.begin());
     const CachedMesh* cached = state.meshes.find(key);
-    if (!cached || already_has(key, *cached)) continue;
+    if (!cached) continue;
+    if (already_has(key, *cached)) {
+      if (!cached->removed) claimed_.insert(key);
+      continue;
+    }
+    claimed_.erase(key);
     records.push_back(cached->bytes);
     bytes += cached->bytes->size();
   }
   return records;
+}
+
+// What is neither owed nor unseen is held in its latest revision up to complete_seq_. So the delta
+// fits where its base is that one; but none starts from a mesh that was only claimed.
+const RecordBytes& Subscription::record_for(const voxel::ChunkKey& key, const CachedMesh& cached) {
+  const bool claimed = claimed_.erase(key) != 0;
+  const bool fits = cached.delta && cached.base_revision <= complete_seq_ && !claimed;
+  return fits ? cached.delta : cached.bytes;
 }
 
 bool Subscription::already_has(const voxel::ChunkKey& key, const CachedMesh& cached) const {

@@ -66,17 +66,19 @@ class Subscription {
   std::vector<RecordBytes> take_owed(const MapState& state);
   std::vector<RecordBytes> take_unseen(const MapState& state);
   bool already_has(const voxel::ChunkKey& key, const CachedMesh& cached) const;
+  const RecordBytes& record_for(const voxel::ChunkKey& key, const CachedMesh& cached);
 
   bool looks_ = false;
   std::uint32_t view_ = 0;
   ViewArea area_;
   std::optional<Claim> claim_;
   std::size_t layers_ = 1;
-  std::set<Ranked> unseen_;         // of the view, not sent yet
-  std::set<voxel::ChunkKey> owed_;  // sent before, or known to be nothing, and different now
-  bool caught_up_ = false;          // was said of this view
-  std::uint64_t complete_seq_ = 0;  // what was sent is as of this seq, but for what is owed
-  std::uint64_t told_seq_ = 0;      // the last seq that a group or caught_up carried
+  std::set<Ranked> unseen_;            // of the view, not sent yet
+  std::set<voxel::ChunkKey> owed_;     // sent before, or known to be nothing, and different now
+  std::set<voxel::ChunkKey> claimed_;  // of the view, held by the viewer's word, not sent
+  bool caught_up_ = false;             // was said of this view
+  std::uint64_t complete_seq_ = 0;     // what was sent is as of this seq, but for what is owed
+  std::uint64_t told_seq_ = 0;         // the last seq that a group or caught_up carried
 };
 
 }  // namespace earthwork::room

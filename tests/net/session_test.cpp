@@ -77,7 +77,7 @@ struct SessionTest : testing::Test {
 
 /// Reads a client's messages until one says that the map is at `seq`: the mesh hash then.
 std::uint64_t watch_until(SocketClient& client, std::uint64_t seq) {
-  std::map<protocol::ChunkKey, std::uint64_t> terms;
+  std::map<protocol::ChunkKey, protocol::ChunkRecord> chunks;
   protocol::FrameReader reader;
   for (std::uint64_t at = 0; at < seq;) {
     const auto received = client.receive();
@@ -92,16 +92,15 @@ std::uint64_t watch_until(SocketClient& client, std::uint64_t seq) {
       throw std::runtime_error("a bad frame");
     for (const auto& event : events) {
       if (const auto* end = std::get_if<protocol::GroupEnd>(&event)) at = end->seq;
-      const auto* record = std::get_if<protocol::ChunkRecord>(&event);
-      if (!record) continue;
-      terms.erase(record->key);
-      if (!record->removed)
-        terms[record->key] =
-            protocol::mesh_hash_term(record->key, protocol::mesh_hash(record->mesh));
+      if (const auto* record = std::get_if<protocol::ChunkRecord>(&event))
+        chunks[record->key] = *record;
+      if (const auto* delta = std::get_if<protocol::ChunkDelta>(&event))
+        chunks[delta->key] = protocol::apply_delta(chunks.at(delta->key).mesh, *delta).value();
     }
   }
   std::uint64_t sum = 0;
-  for (const auto& [key, term] : terms) sum += term;
+  for (const auto& [key, record] : chunks)
+    if (!record.removed) sum += protocol::mesh_hash_term(key, protocol::mesh_hash(record.mesh));
   return sum;
 }
 

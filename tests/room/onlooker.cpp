@@ -2,8 +2,11 @@
 
 #include <set>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "protocol/record_delta.hpp"
 
 namespace earthwork::room {
 namespace {
@@ -49,6 +52,23 @@ ChunkRecord decoded(const RecordBytes& bytes) {
   return protocol::decode_record(std::as_bytes(std::span(*bytes))).value();
 }
 
+bool is_delta(const RecordBytes& bytes) {
+  return protocol::is_delta(std::as_bytes(std::span(*bytes)));
+}
+
+ChunkKey key_of(const RecordBytes& bytes) {
+  if (!is_delta(bytes)) return decoded(bytes).key;
+  return protocol::decode_delta(std::as_bytes(std::span(*bytes))).value().key;
+}
+
+ChunkRecord Onlooker::after(const RecordBytes& bytes) const {
+  if (!is_delta(bytes)) return decoded(bytes);
+  const auto delta = protocol::decode_delta(std::as_bytes(std::span(*bytes))).value();
+  const ChunkRecord& base = chunks.at(delta.key);
+  if (base.revision != delta.base_revision) throw std::runtime_error("a delta of another base");
+  return protocol::apply_delta(base.mesh, delta).value();
+}
+
 void Onlooker::answered(std::vector<Reply> replies) {
   for (const Reply& reply : replies) {
     if (const auto* applied = std::get_if<protocol::Applied>(&reply)) acks.push_back(*applied);
@@ -62,7 +82,7 @@ void Onlooker::tell(Talk talk) { talks.push_back(std::move(talk)); }
 void Onlooker::deliver(Parcel parcel) {
   for (const auto* records : {&parcel.group_records, &parcel.first_seen}) {
     for (const RecordBytes& bytes : *records) {
-      ChunkRecord record = decoded(bytes);
+      ChunkRecord record = after(bytes);
       if (record.removed)
         chunks.erase(record.key);
       else

@@ -34,9 +34,16 @@ class Onlooker final : public Viewer {
   std::vector<Parcel> parcels;
   std::optional<protocol::Bye> bye;
   std::map<protocol::ChunkKey, protocol::ChunkRecord> chunks;
+
+ private:
+  [[nodiscard]] protocol::ChunkRecord after(const RecordBytes& bytes) const;
 };
 
+/// Of a full record.
 [[nodiscard]] protocol::ChunkRecord decoded(const RecordBytes& bytes);
+/// Of a delta too.
+[[nodiscard]] protocol::ChunkKey key_of(const RecordBytes& bytes);
+[[nodiscard]] bool is_delta(const RecordBytes& bytes);
 
 /// The first pair of neighbours whose vertices on their common rim line differ, as text; empty
 /// when all agree.

@@ -16,7 +16,7 @@ using protocol::ChunkKey;
 
 std::vector<ChunkKey> keys(const std::vector<RecordBytes>& records) {
   std::vector<ChunkKey> keys;
-  for (const RecordBytes& bytes : records) keys.push_back(decoded(bytes).key);
+  for (const RecordBytes& bytes : records) keys.push_back(key_of(bytes));
   return keys;
 }
 
@@ -179,6 +179,49 @@ TEST_F(SubscriptionTest, WhoWasAwayIsSentWhatIsNewAndWhatIsGone) {
   EXPECT_FALSE(records[0].removed);
   EXPECT_EQ(records[1].key, (ChunkKey{0, 2, 2, 0}));
   EXPECT_TRUE(records[1].removed);
+}
+
+TEST_F(SubscriptionTest, WhatAViewerWasSentChangesByDeltas) {
+  Guest a = enter();
+  look(a, view_rect(1, {1, 1, 30, 30}));
+  a.eyes->forget_parcels();
+  edit(painter, disc(8 * 2 + 5.5, 8 * 2 + 4.5, 2));
+  ASSERT_EQ(a.eyes->parcels.size(), 1u);
+  const RecordBytes& sent = a.eyes->parcels[0].group_records.at(0);
+  EXPECT_TRUE(is_delta(sent));
+  EXPECT_EQ(key_of(sent), (ChunkKey{0, 2, 2, 0}));
+  Guest b = enter();
+  look(b, view_rect(1, {1, 1, 30, 30}));
+  EXPECT_EQ(a.eyes->mesh_hash(), b.eyes->mesh_hash());
+}
+
+TEST_F(SubscriptionTest, WhoMissedARevisionIsSentAllOfTheNext) {
+  Guest a = enter(), b = enter();
+  look(a, view_rect(1, {1, 1, 30, 30})), look(b, view_rect(1, {1, 1, 30, 30}));
+  edit(painter, disc(8 * 3 + 4.5, 8 * 3 + 4.5, 2.5));  // takes both parcels
+  room->ready(b.id);
+  edit(painter, disc(8 * 2 + 5.5, 8 * 2 + 4.5, 2));  // is shown to b alone
+  room->ready(b.id);
+  edit(painter, disc(8 * 2 + 4.5, 8 * 2 + 5.5, 2));
+  EXPECT_TRUE(is_delta(b.eyes->parcels.back().group_records.at(0)));
+  room->ready(a.id);
+  EXPECT_FALSE(is_delta(a.eyes->parcels.back().group_records.at(0)));
+  EXPECT_EQ(a.eyes->mesh_hash(), b.eyes->mesh_hash());
+}
+
+TEST_F(SubscriptionTest, NoDeltaStartsFromWhatWasOnlyClaimed) {
+  Guest a = enter();
+  look(a, view_all(1));
+  Guest b = enter();
+  look(b, claim(1, seq, "000000000000abcd"));
+  b.eyes->chunks = a.eyes->chunks;  // what it had before
+  edit(painter, disc(8 * 2 + 5.5, 8 * 2 + 4.5, 2));
+  EXPECT_FALSE(is_delta(b.eyes->parcels.back().group_records.at(0)));
+  room->ready(b.id);
+  edit(painter, disc(8 * 2 + 4.5, 8 * 2 + 5.5, 2));
+  EXPECT_TRUE(is_delta(b.eyes->parcels.back().group_records.at(0)));
+  settle(a);
+  EXPECT_EQ(b.eyes->mesh_hash(), a.eyes->mesh_hash());
 }
 
 TEST_F(SubscriptionTest, AClaimFromAnotherEpochCountsForNothing) {
