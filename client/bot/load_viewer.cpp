@@ -86,7 +86,8 @@ void LoadViewer::count(const std::vector<protocol::FrameEvent>& events, std::siz
   for (const protocol::FrameEvent& event : events) {
     if (std::holds_alternative<protocol::GroupEnd>(event))
       ++counts_.groups;
-    else if (!std::holds_alternative<protocol::GroupBegin>(event)) ++counts_.records;
+    else if (!std::holds_alternative<protocol::GroupBegin>(event))
+      ++counts_.records;
   }
 }
 

@@ -61,7 +61,7 @@ TEST(Authors, RememberSoManyAndNotOneMore) {
 }
 
 TEST(Authors, AgreeWithAListOfEverything) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     Authors authors;
     std::map<protocol::MessageId, std::uint64_t> all;
     const int count = *rc::gen::weightedOneOf<int>(
@@ -83,7 +83,7 @@ TEST(Authors, AgreeWithAListOfEverything) {
       const auto larger = std::distance(all.upper_bound(asked), all.end());
       RC_ASSERT(verdict.standing == (larger >= 4096 ? Standing::too_old : Standing::out_of_order));
     }
-  });
+  }));
 }
 
 }  // namespace

@@ -200,7 +200,7 @@ void check_follower(World& world, const Onlooker& follower) {
 }
 
 TEST(ExactlyOnce, HoldsUnderResendsDisconnectsAndRejoins) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     World world;
     World::Guest watcher = world.enter("watcher");
     world.look(watcher, view_all(1));
@@ -228,7 +228,7 @@ TEST(ExactlyOnce, HoldsUnderResendsDisconnectsAndRejoins) {
     check_follower(world, *watcher.eyes);
     RC_ASSERT(torn_rim(watcher.eyes->chunks, 8) == "");
     RC_ASSERT(watcher.eyes->mesh_hash() == world.mesh_hash());
-  });
+  }));
 }
 
 }  // namespace

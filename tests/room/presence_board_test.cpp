@@ -291,7 +291,7 @@ struct Reader {
 
 /// However rarely each of them listens: in the end all hold the same, and it is true.
 TEST(PresenceBoard, EverybodyEndsWithTheSamePicture) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     Board board;
     std::map<ViewerId, Reader> readers;
     std::map<ViewerId, std::uint64_t> sessions;  // of those who are there
@@ -337,7 +337,7 @@ TEST(PresenceBoard, EverybodyEndsWithTheSamePicture) {
       RC_ASSERT(readers[id].cursors.size() == others.size());
       for (const auto& [name, place] : others) RC_ASSERT(readers[id].cursors[name].at == place);
     }
-  });
+  }));
 }
 
 }  // namespace

@@ -379,7 +379,7 @@ TEST_F(RoomTest, FiguresAndMeshesAreOfOneSeq) {
 
 /// Neighbours never come apart, and everybody ends with the same mesh, whoever reads how slowly.
 TEST(Room, KeepsEveryViewerWhole) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     World world;
     World::Guest painter = world.enter(), quick = world.enter(), slow = world.enter();
     world.look(quick, view_all(1)), world.look(slow, view_all(1));
@@ -399,7 +399,7 @@ TEST(Room, KeepsEveryViewerWhole) {
     world.settle(quick), world.settle(slow);
     RC_ASSERT(quick.eyes->mesh_hash() == world.mesh_hash());
     RC_ASSERT(slow.eyes->mesh_hash() == world.mesh_hash());
-  });
+  }));
 }
 
 }  // namespace
