@@ -1,5 +1,6 @@
 #include "server/room/publisher.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -51,7 +52,7 @@ void Publisher::ready(ViewerId id) {
   if (found == shows_.end()) return;
   Show& show = found->second;
   show.ready = true;
-  if (!round_) {
+  if (!held()) {
     RoundPlan plan(meshes_);
     show.subscription.plan_owed(plan);
     show.subscription.plan_first_load(plan);
@@ -66,7 +67,25 @@ void Publisher::changed(const voxel::Change& change) {
 
 void Publisher::show(std::uint64_t seq) {
   latest_ = seq;
-  if (!round_) go_on();
+  show_news();
+}
+
+void Publisher::show_news() {
+  if (round_ || resting_ || latest_ == seq_) return;
+  rest();
+  go_on();
+}
+
+void Publisher::rest() {
+  const std::chrono::microseconds asked = kRestPerViewer * shows_.size();
+  const auto time =
+      std::min(std::chrono::duration_cast<std::chrono::milliseconds>(asked), kLongestRest);
+  if (time.count() == 0) return;
+  resting_ = true;
+  later_(time, [this] {
+    resting_ = false;
+    show_news();
+  });
 }
 
 // Not while a round runs: until it is over, meshes_ and what viewers are owed stay as of its seq.
@@ -120,7 +139,10 @@ void Publisher::start_round(std::span<const voxel::ChunkKey> keys) {
   round_->start(workplace_(), std::exchange(makers_, {}), meters_, [this, started = round_.get()] {
     if (round_.get() != started) return;  // `refresh` has ended it
     end_round();
-    go_on();
+    if (latest_ != seq_)
+      show_news();
+    else
+      go_on();
   });
 }
 
@@ -155,7 +177,7 @@ void Publisher::publish_to(Show& show, Beat beat) {
     if (Parcel parcel = show.subscription.compose(state(), beat); !parcel.empty()) {
       show.ready = false;
       show.viewer->deliver(std::move(parcel));
-    } else if (show.subscription.waiting() && !round_) {
+    } else if (show.subscription.waiting() && !held()) {
       publish_soon();  // a stretch of a first load that held nothing
     }
   }
@@ -167,7 +189,7 @@ void Publisher::publish_soon() {
   publish_scheduled_ = true;
   later_(std::chrono::milliseconds{0}, [this] {
     publish_scheduled_ = false;
-    if (round_)
+    if (held())
       publish(Beat::wait);
     else
       go_on();

@@ -27,10 +27,18 @@
 
 namespace earthwork::room {
 
+inline constexpr std::chrono::microseconds kRestPerViewer{40};
+/// Twenty times a second everybody is shown something, however many there are.
+inline constexpr std::chrono::milliseconds kLongestRest{50};
+
 /// Meshes are made in rounds: all that viewers who are ready wait for, as of the seq that is shown,
 /// which then stays until the round is over. A small round is made at once; a larger one on the
 /// thread pool, while the map goes on. So what is shown is behind the map by a round at most, is
 /// consistent at any time, and no round is ever made in vain.
+///
+/// The more viewers there are, the more edits they are shown at a time: after something was shown,
+/// what is new rests for kRestPerViewer for each of them, so that a crowd costs a part of a core
+/// and not all of it. Few viewers are shown every turn, and what comes after a rest at once.
 ///
 /// On the strand of the room whose part it is.
 class Publisher {
@@ -64,7 +72,7 @@ class Publisher {
   /// The map was changed so by its latest edit.
   void changed(const voxel::Change& change);
   /// Every change up to `seq` was told: delivers what the viewers who are ready are to be sent, now
-  /// or when the round that runs is over.
+  /// or when the round that runs is over, or the rest.
   void show(std::uint64_t seq);
 
   /// Brings up to `budget` chunks' meshes up to date with the map, or a few more; true when all
@@ -87,6 +95,11 @@ class Publisher {
   };
 
   void go_on();
+  void show_news();
+  /// No mesh can be made now of what is shown: a round makes them, or the map has gone on and
+  /// rests.
+  [[nodiscard]] bool held() const { return round_ || (resting_ && latest_ != seq_); }
+  void rest();
   void take_in_pending();
   [[nodiscard]] RoundPlan plan_for_all();
   void make(const std::vector<voxel::ChunkKey>& keys);
@@ -116,6 +129,7 @@ class Publisher {
   std::map<ViewerId, Show> shows_;
   ViewerId last_loader_ = 0;  // whose first load was the last in a plan
   bool publish_scheduled_ = false, beat_scheduled_ = false;
+  bool resting_ = false;  // what is new is not taken in yet
 };
 
 }  // namespace earthwork::room

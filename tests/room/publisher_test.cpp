@@ -169,6 +169,65 @@ TEST(Publisher, ManyFirstLoadsTakeTurns) {
   for (const World::Guest& guest : guests) EXPECT_GE(guest.eyes->first_seen(), 128u);
 }
 
+/// With 100 viewers the room rests for 4 ms after it has shown something.
+struct CrowdTest : PublisherTest {
+  CrowdTest() {
+    for (int i = 0; i < 98; ++i) crowd.push_back(enter());
+    context.advance(1s);
+  }
+  std::uint64_t seq_shown() const { return seen.eyes->parcels.back().group->seq; }
+
+  std::vector<Guest> crowd;
+};
+
+TEST_F(CrowdTest, IsShownAtOnceWhatComesAfterARest) {
+  edit(painter, disc(40, 40, 3));
+  ASSERT_EQ(seen.eyes->parcels.size(), 1u);
+  EXPECT_EQ(seq_shown(), 401u);
+}
+
+TEST_F(CrowdTest, IsShownTogetherWhatComesDuringOne) {
+  edit(painter, disc(40, 40, 3));
+  room->ready(seen.id);
+  for (int i = 0; i < 5; ++i) edit(painter, disc(40 + i, 44, 3));
+  context.advance(3ms);
+  EXPECT_EQ(seen.eyes->parcels.size(), 1u);
+  EXPECT_EQ(painter.eyes->acks.back().seq, 406u);  // nobody waits for a number
+  context.advance(1ms);
+  ASSERT_EQ(seen.eyes->parcels.size(), 2u);
+  EXPECT_EQ(seq_shown(), 406u);
+  EXPECT_EQ(seen.eyes->mesh_hash(), mesh_hash());
+}
+
+TEST_F(CrowdTest, IsNeverShownAMeshOfTheMapThatRests) {
+  edit(painter, disc(40, 40, 3));
+  edit(painter, large());  // rests
+  room->ready(seen.id);
+  ASSERT_TRUE(room->look(crowd[0].id, view_rect(1, {1, 1, 159, 159})));
+  context.advance(3ms);
+  EXPECT_EQ(seen.eyes->parcels.size(), 1u);
+  context.advance(1ms);
+  EXPECT_EQ(seq_shown(), 402u);
+  settle(crowd[0]);
+  EXPECT_EQ(torn_rim(crowd[0].eyes->chunks, 8), "");
+  EXPECT_EQ(crowd[0].eyes->mesh_hash(), mesh_hash());
+}
+
+TEST(Publisher, NoCrowdRestsForLongerThanATwentiethOfASecond) {
+  World world;
+  World::Guest painter = world.enter("painter");
+  for (int i = 0; i < 2000; ++i) (void)world.enter();
+  world.look(painter, view_all(1));
+  painter.eyes->forget_parcels();
+  world.edit(painter, disc(40, 40, 3));
+  world.room->ready(painter.id);
+  world.edit(painter, disc(44, 40, 3));
+  world.context.advance(49ms);
+  EXPECT_EQ(painter.eyes->parcels.size(), 1u);
+  world.context.advance(1ms);
+  EXPECT_EQ(painter.eyes->parcels.size(), 2u);
+}
+
 /// What a viewer was given, step by step.
 void check_steps(const World::Guest& guest, std::size_t& checked, std::uint64_t& told,
                  const World& world) {
@@ -195,6 +254,8 @@ TEST(Publisher, KeepsEveryViewerWholeWhateverComesWhen) {
     World world;
     World::Guest painter = world.enter();
     std::vector<World::Guest> guests{world.enter(), world.enter(), world.enter()};
+    const int crowd = *rc::gen::weightedElement<int>({{3, 0}, {1, 50}});  // with one, it rests
+    for (int i = 0; i < crowd; ++i) (void)world.enter();
     std::vector<std::size_t> checked(3, 0);
     std::vector<std::uint64_t> told(3, 0);
     std::vector<bool> loaded(3, false);
@@ -233,7 +294,7 @@ TEST(Publisher, KeepsEveryViewerWholeWhateverComesWhen) {
           (void)world.room->refresh_meshes(static_cast<std::size_t>(*rc::gen::inRange(0, 30)));
           break;
         default:
-          world.context.advance(100ms);
+          world.context.advance(std::chrono::milliseconds(*rc::gen::element(1, 2, 100)));
       }
       check();
     }
