@@ -19,6 +19,7 @@ struct CellRect {
 struct DirtyChunk {
   ChunkKey key;
   CellRect cells;  ///< Never empty; a cell outside it has the mesh it had.
+  friend bool operator==(const DirtyChunk&, const DirtyChunk&) = default;
 };
 
 /// Both lists run from the top row of chunks to the bottom one, right to left within a row, and
@@ -28,6 +29,12 @@ struct Change {
   std::vector<ChunkKey> changed;
   std::vector<DirtyChunk> dirty;
   void clear() { changed.clear(), dirty.clear(); }
+  friend bool operator==(const Change&, const Change&) = default;
 };
+
+/// Makes a Change of what was noted in any order, a chunk any number of times.
+void put_in_order(Change& change);
+/// Adds to `all` what came after it: one change of both. Takes time with the chunks of both.
+void add(Change& all, const Change& more);
 
 }  // namespace earthwork::voxel

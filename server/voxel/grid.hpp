@@ -15,6 +15,7 @@ inline constexpr int kMaxLayers = 16;
 /// Chunks x0 <= x < x1, y0 <= y < y1.
 struct ChunkRect {
   std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
   bool contains(std::int32_t x, std::int32_t y) const {
     return x0 <= x && x < x1 && y0 <= y && y < y1;
   }
@@ -35,6 +36,10 @@ struct Grid {
     return {-n, -n, n, n};
   }
   ChunkRect extent() const { return bounds ? *bounds : world(); }
+  /// The column or row of chunks that column or row `voxel` of the map is in.
+  std::int32_t chunk_of(std::int32_t voxel) const {
+    return voxel / resolution - (voxel % resolution < 0 ? 1 : 0);
+  }
 };
 
 }  // namespace earthwork::voxel

@@ -10,8 +10,6 @@
 namespace earthwork::voxel {
 namespace {
 
-std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-
 std::uint64_t hash_term(const ChunkKey& key, std::uint64_t chunk_hash) {
   unsigned char bytes[24];
   static_assert(sizeof key == 16);
@@ -20,22 +18,13 @@ std::uint64_t hash_term(const ChunkKey& key, std::uint64_t chunk_hash) {
   return XXH3_64bits(bytes, sizeof bytes);
 }
 
-/// The order in which chunks are visited: top row first, right to left in a row.
-bool visited_before(const ChunkKey& a, const ChunkKey& b) {
-  return a.y != b.y ? a.y > b.y : a.x > b.x;
-}
-
-CellRect united(const CellRect& a, const CellRect& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 }  // namespace
 
 const Change& Map::apply(int layer, std::span<const Stencil> stencils) {
   assert(layer >= 0 && layer < grid_.layers);
   change_.clear();
   for (const Stencil& stencil : stencils) stamp(layer, stencil);
-  order_change();
+  put_in_order(change_);
   return change_;
 }
 
@@ -45,11 +34,10 @@ void Map::stamp(int layer, const Stencil& stencil) {
   coverage_.assign(stencil, grid_.voxel_size);
   if (coverage_.empty()) return;
   const ChunkRect extent = grid_.extent();
-  const auto chunk_of = [this](std::int32_t voxel) { return floor_div(voxel, grid_.resolution); };
-  const std::int32_t x0 = std::max(chunk_of(coverage_.left() - 1), extent.x0);
-  const std::int32_t y0 = std::max(chunk_of(coverage_.bottom() - 1), extent.y0);
-  const std::int32_t x1 = std::min(chunk_of(coverage_.right()), extent.x1 - 1);
-  const std::int32_t y1 = std::min(chunk_of(coverage_.top()), extent.y1 - 1);
+  const std::int32_t x0 = std::max(grid_.chunk_of(coverage_.left() - 1), extent.x0);
+  const std::int32_t y0 = std::max(grid_.chunk_of(coverage_.bottom() - 1), extent.y0);
+  const std::int32_t x1 = std::min(grid_.chunk_of(coverage_.right()), extent.x1 - 1);
+  const std::int32_t y1 = std::min(grid_.chunk_of(coverage_.top()), extent.y1 - 1);
   for (std::int32_t y = y1; y >= y0; --y) {
     for (std::int32_t x = x1; x >= x0; --x) stamp_chunk({layer, x, y, 0}, extent);
   }
@@ -99,25 +87,6 @@ void Map::note(const ChunkKey& key, const Touched& touched) {
   add(-1, -1, touched.lower_left);
 }
 
-// One entry a chunk, in visiting order.
-void Map::order_change() {
-  auto& changed = change_.changed;
-  std::sort(changed.begin(), changed.end(), visited_before);
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  auto& dirty = change_.dirty;
-  std::sort(dirty.begin(), dirty.end(),
-            [](const DirtyChunk& a, const DirtyChunk& b) { return visited_before(a.key, b.key); });
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < dirty.size(); ++k) {
-    if (kept > 0 && dirty[kept - 1].key == dirty[k].key) {
-      dirty[kept - 1].cells = united(dirty[kept - 1].cells, dirty[k].cells);
-    } else {
-      dirty[kept++] = dirty[k];
-    }
-  }
-  dirty.resize(kept);
-}
-
 void Map::put(const ChunkKey& key, Chunk chunk) {
   assert(chunk.resolution() == grid_.resolution && grid_.extent().contains(key.x, key.y));
   const auto found = chunks_.try_emplace(key, grid_.resolution).first;
@@ -149,7 +118,7 @@ Neighbourhood Map::neighbourhood(const ChunkKey& key) const {
 
 bool Map::filled(int layer, std::int32_t i, std::int32_t j) const {
   const int r = grid_.resolution;
-  const ChunkKey key{layer, floor_div(i, r), floor_div(j, r), 0};
+  const ChunkKey key{layer, grid_.chunk_of(i), grid_.chunk_of(j), 0};
   const Chunk* chunk = find(key);
   return chunk && chunk->filled(i - key.x * r, j - key.y * r);
 }

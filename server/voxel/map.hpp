@@ -78,7 +78,6 @@ class Map {
   void stamp_chunk(const ChunkKey& key, const ChunkRect& extent);
   void note(const ChunkKey& key, const Touched& touched);
   void changed(const ChunkKey& key, Entry& entry);
-  void order_change();
 
   Grid grid_;
   std::unordered_map<ChunkKey, Entry, ChunkKeyHash> chunks_;
