@@ -1,7 +1,5 @@
 #include "server/history/fold.hpp"
 
-#include <vector>
-
 namespace earthwork::history {
 namespace {
 
@@ -25,7 +23,7 @@ voxel::Shape shape_of(protocol::StencilShape stencil) {
 
 voxel::Map make_map(const protocol::MapSettings& settings) { return voxel::Map(grid_of(settings)); }
 
-const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit) {
+std::vector<voxel::Stencil> stencils(const protocol::Edit& edit) {
   std::vector<voxel::Stencil> stamps;
   stamps.reserve(edit.path.size());
   for (const protocol::MapPoint& p : edit.path) {
@@ -35,7 +33,11 @@ const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit) {
                       .shape = shape_of(edit.stencil),
                       .fill = edit.fill ? voxel::Fill::filled : voxel::Fill::empty});
   }
-  return map.apply(static_cast<int>(edit.layer), stamps);
+  return stamps;
+}
+
+const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit) {
+  return map.apply(static_cast<int>(edit.layer), stencils(edit));
 }
 
 }  // namespace earthwork::history

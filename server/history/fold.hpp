@@ -1,16 +1,20 @@
 /// From commands to a map: the one place where a protocol edit becomes voxels.
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include "protocol/edit.hpp"
 #include "protocol/settings.hpp"
 #include "server/voxel/map.hpp"
+#include "server/voxel/stencil.hpp"
 
 namespace earthwork::history {
 
 /// An empty map with these settings.
 [[nodiscard]] voxel::Map make_map(const protocol::MapSettings& settings);
+
+/// What an edit stamps on its layer, in order.
+[[nodiscard]] std::vector<voxel::Stencil> stencils(const protocol::Edit& edit);
 
 /// Applies an edit that `protocol::check_edit` accepted, now or when it was recorded. The result is
 /// valid until the map's next edit.

@@ -36,10 +36,31 @@ bool Line::push(Waiting waiting) {
   return true;
 }
 
+const Line::Waiting& Line::next() const {
+  assert(has_next());
+  return queues_.at(std::get<3>(*heads_.begin())).front().waiting;
+}
+
+void Line::put_aside() {
+  assert(has_next());
+  aside_.insert(heads_.extract(heads_.begin()));
+}
+
 Line::Waiting Line::pop() {
-  assert(!empty());
+  assert(has_next());
   const auto queue = queues_.find(std::get<3>(*heads_.begin()));
   heads_.erase(heads_.begin());
+  return take_first(queue);
+}
+
+Line::Waiting Line::take(std::uint64_t author) {
+  const auto queue = queues_.find(author);
+  assert(queue != queues_.end() && aside_.contains(head_of(queue->second)));
+  aside_.erase(head_of(queue->second));
+  return take_first(queue);
+}
+
+Line::Waiting Line::take_first(Queues::iterator queue) {
   Entry entry = std::move(queue->second.front());
   queue->second.pop_front();
   if (queue->second.empty())
@@ -53,7 +74,7 @@ Line::Waiting Line::pop() {
   // A newcomer starts where the clock stands: an endless row of them, each under a key of its own,
   // must not stop it, or whoever has an edit to come would wait for ever.
   if (entry.newcomer) ++clock_;
-  if (heads_.empty())
+  if (empty())
     clear();
   else if (ends_.size() >= std::max(forget_at_, kManyEnds))
     forget_the_paid();

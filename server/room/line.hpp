@@ -43,11 +43,24 @@ class Line {
   /// False when more than kMaxWaitingPoints would wait; then nothing happened.
   [[nodiscard]] bool push(Waiting waiting);
   /// Takes the next one out. The edits of one author come in the order in which they were pushed.
-  /// Not when it is empty.
+  /// Not when there is no next one.
   [[nodiscard]] Waiting pop();
   void clear();
 
-  [[nodiscard]] bool empty() const { return heads_.empty(); }
+  [[nodiscard]] bool has_next() const { return !heads_.empty(); }
+  /// The one that `pop` would take. Valid until then.
+  [[nodiscard]] const Waiting& next() const;
+  /// Passes over the next one, and over what comes after it of its author: they wait, and keep
+  /// their places, but are not next until `recall`.
+  void put_aside();
+  /// Takes out the one of this author that was put aside. Who comes after it of the author may be
+  /// next.
+  [[nodiscard]] Waiting take(std::uint64_t author);
+  /// Nobody is passed over any more: who was, comes before whoever came later.
+  void recall() { heads_.merge(aside_); }
+
+  /// None waits, not even aside.
+  [[nodiscard]] bool empty() const { return queues_.empty(); }
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Centres of all that waits.
   [[nodiscard]] std::size_t points() const { return points_; }
@@ -64,11 +77,14 @@ class Line {
   // The first edit of an author: earlier starts first, of equal ones the cheaper, then the older.
   using Head = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t>;
 
+  using Queues = std::unordered_map<std::uint64_t, std::deque<Entry>>;
+
   [[nodiscard]] static Head head_of(const std::deque<Entry>& queue);
+  [[nodiscard]] Waiting take_first(Queues::iterator queue);
   void forget_the_paid();
 
-  std::unordered_map<std::uint64_t, std::deque<Entry>> queues_;  // by author, none empty
-  std::set<Head> heads_;                                         // of all queues
+  Queues queues_;                                          // by author, none empty
+  std::set<Head> heads_, aside_;                           // of all queues, each in one of them
   std::unordered_map<std::uint64_t, std::uint64_t> ends_;  // by author: where its last edit ends
   std::uint64_t clock_ = 0, last_number_ = 0;
   std::size_t size_ = 0, points_ = 0, forget_at_ = 0;

@@ -12,19 +12,12 @@ namespace {
 using protocol::Code;
 
 // A turn applies edits until one of these bounds, then shows them: so that a crowd of editors is
-// meshed and sent for once, and that a flood of edits does not keep everybody waiting. Visits count
-// whether or not a chunk changes, and take a microsecond or two: the largest edit has thirty times
-// this many, and a turn of its own.
+// meshed and sent for once, and that a flood of edits does not keep everybody waiting. Rows count
+// whether or not they change. An edit of very many is not applied in a turn but prepared between
+// turns.
 constexpr int kTurnEdits = 512;
 constexpr std::size_t kTurnDirtyChunks = 1024;
-constexpr std::uint64_t kTurnChunkVisits = 8192;
-
-/// The chunks that an edit looks at, a chunk once a stamp, or a few more.
-std::uint64_t chunk_visits(const protocol::Edit& edit, const protocol::MapSettings& settings) {
-  const double side_voxels = 2 * edit.radius / settings.voxel_size;
-  const auto side = static_cast<std::uint64_t>(side_voxels / settings.chunk_resolution) + 2;
-  return side * side * edit.path.size();
-}
+constexpr std::uint64_t kTurnRows = 262'144;
 
 /// Inside what the centre of an edit may have.
 protocol::Result<void> check_place(const protocol::MapPoint& at,
@@ -60,7 +53,8 @@ Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch
       herald_(events_, *strand_,
               [this](std::chrono::milliseconds delay, std::function<void()> task) {
                 run_later(delay, std::move(task));
-              }) {}
+              }),
+      slicer_(map_) {}
 
 protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, protocol::User user) {
   if (closed_) return tl::unexpected<protocol::Failure>(*closed_);
@@ -129,7 +123,7 @@ protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
   const auto found = seats_.find(viewer);
   if (found == seats_.end()) return protocol::fail(Code::bad_state, "edit: join a map first");
   if (auto checked = protocol::check_edit(command.edit, settings_); !checked) return checked;
-  const std::uint64_t cost = chunk_visits(command.edit, settings_);
+  const std::uint64_t cost = rows_visited(command.edit, settings_);
   if (!line_.push({viewer, std::move(command), cost, strand_->now_ms()}))
     return protocol::fail(Code::too_large,
                           "path: edits of " + std::to_string(kMaxWaitingPoints) +
@@ -181,24 +175,64 @@ void Room::schedule_turn() {
 
 void Room::turn() {
   turn_scheduled_ = false;
-  turn_chunks_ = 0;
-  std::uint64_t visits = 0;
-  for (int n = 0; n < kTurnEdits && turn_chunks_ < kTurnDirtyChunks && visits < kTurnChunkVisits &&
-                  !line_.empty();
-       ++n) {
-    Line::Waiting next = line_.pop();
-    visits += next.cost;
-    Reply reply = decide(next.command);
-    if (const auto seat = seats_.find(next.viewer); seat != seats_.end()) {
-      --seat->second.waiting;
-      seat->second.told.push_back(std::move(reply));
-    }
-  }
+  turn_chunks_ = 0, turn_rows_ = 0;
+  if (slicer_.through()) commit_sliced();
+  for (int n = 0; n < kTurnEdits && turn_chunks_ < kTurnDirtyChunks && turn_rows_ < kTurnRows &&
+                  line_.has_next();
+       ++n)
+    take_next();
   acknowledge();
   let_go();
   herald_.tell_events();
   publisher_.show(seq());
-  if (!line_.empty()) schedule_turn();
+  if (line_.has_next()) schedule_turn();
+}
+
+// What cannot be applied now keeps its place in line, and its author's later ones wait behind it.
+// So whatever was fresh when its preparation began is fresh at its end.
+void Room::take_next() {
+  const Line::Waiting& next = line_.next();
+  if (slicer_.must_wait(next)) return line_.put_aside();
+  const auto fresh = [&] {
+    return authors_.judge(next.command.author, next.command.id).standing ==
+           Authors::Standing::fresh;
+  };
+  if (Slicer::too_large(next) && fresh()) {
+    slicer_.start(next.command);
+    line_.put_aside();
+    return schedule_slice();
+  }
+  Line::Waiting taken = line_.pop();
+  turn_rows_ += taken.cost;
+  answer(taken.viewer, decide(taken.command));
+}
+
+void Room::schedule_slice() {
+  strand_->post([self = shared_from_this()] { self->run([&] { self->slice(); }); });
+}
+
+// One slice a task: turns, and whatever else the strand has to do, come in between.
+void Room::slice() {
+  if (!slicer_.busy()) return;  // closed meanwhile
+  slicer_.advance();
+  if (slicer_.through())
+    schedule_turn();
+  else
+    schedule_slice();
+}
+
+void Room::commit_sliced() {
+  Line::Waiting done = line_.take(slicer_.author());
+  line_.recall();
+  accept(done.command, slicer_.commit());
+  answer(done.viewer, protocol::Applied{.id = done.command.id, .seq = seq()});
+}
+
+void Room::answer(ViewerId viewer, Reply reply) {
+  const auto seat = seats_.find(viewer);
+  if (seat == seats_.end()) return;
+  --seat->second.waiting;
+  seat->second.told.push_back(std::move(reply));
 }
 
 Reply Room::decide(Command& command) {
@@ -211,7 +245,7 @@ Reply Room::decide(Command& command) {
   const auto [standing, seq_before] = authors_.judge(command.author, command.id);
   switch (standing) {
     case Authors::Standing::fresh:
-      apply(command);
+      accept(command, history::apply(map_, command.edit));
       return protocol::Applied{.id = command.id, .seq = seq()};
     case Authors::Standing::repeated:
       ++meters_->repeated;
@@ -226,8 +260,8 @@ Reply Room::decide(Command& command) {
                                       ", which are all that are remembered");
 }
 
-void Room::apply(Command& command) {
-  const voxel::Change& change = history::apply(map_, command.edit);
+// The map has the edit, and nothing after it.
+void Room::accept(Command& command, const voxel::Change& change) {
   publisher_.changed(change);
   turn_chunks_ += change.dirty.size();
   events_.push_back({.seq = seq() + 1,
@@ -294,6 +328,7 @@ protocol::Result<StatesPicture> Room::states(std::uint64_t layer) const {
 void Room::close(const protocol::Bye& bye) {
   closed_ = bye.failure;
   line_.clear();
+  slicer_.clear();
   publisher_.leave_all();
   herald_.leave_all();
   for (auto& [id, seat] : std::exchange(seats_, {})) seat.viewer->end(bye);

@@ -21,6 +21,7 @@
 #include "server/room/line.hpp"
 #include "server/room/meters.hpp"
 #include "server/room/publisher.hpp"
+#include "server/room/slicer.hpp"
 #include "server/room/states_picture.hpp"
 #include "server/room/strand.hpp"
 #include "server/room/viewer.hpp"
@@ -50,7 +51,7 @@ struct MeshSnapshot {
 
 /// How busy a room is, for who watches the server.
 struct RoomLoad {
-  std::size_t waiting_edits = 0;    ///< In line.
+  std::size_t waiting_edits = 0;    ///< In line, with the one that is being prepared.
   std::int64_t oldest_wait_ms = 0;  ///< Of those, the one that came first; 0 when none waits.
   std::size_t owed_chunks = 0;      ///< Waiting to be sent, of all viewers together.
   std::size_t dirty_chunks = 0;     ///< Whose meshes are not up to date.
@@ -108,7 +109,8 @@ class Room : public std::enable_shared_from_this<Room> {
   /// would be exceeded; then it has no number. Otherwise the viewer is told later, never from
   /// within the call: its number, the one that it has already when the author's id was applied
   /// before, or that it has none, by id_out_of_order or id_too_old. An author's edits come to their
-  /// turn in the order of submission, whichever viewers they come from.
+  /// turn in the order of submission, whichever viewers they come from. A large one takes many
+  /// tasks; meanwhile others are applied and numbered before it, unless they come near its place.
   [[nodiscard]] protocol::Result<void> submit(ViewerId viewer, Command command);
 
   [[nodiscard]] RoomInfo info();
@@ -128,7 +130,7 @@ class Room : public std::enable_shared_from_this<Room> {
  private:
   struct Seat {
     std::shared_ptr<GuardedViewer> viewer;
-    std::size_t waiting = 0;     // edits in line
+    std::size_t waiting = 0;     // edits in line, also aside
     std::vector<Reply> told;     // of this turn
     std::function<void()> gone;  // set: it leaves when none waits
   };
@@ -138,8 +140,13 @@ class Room : public std::enable_shared_from_this<Room> {
   [[nodiscard]] Workplace workplace();
   void schedule_turn();
   void turn();
+  void take_next();
   [[nodiscard]] Reply decide(Command& command);
-  void apply(Command& command);
+  void accept(Command& command, const voxel::Change& change);
+  void schedule_slice();
+  void slice();
+  void commit_sliced();
+  void answer(ViewerId viewer, Reply reply);
   void acknowledge();
   void let_go();
   [[nodiscard]] std::uint64_t seq() const { return events_.size(); }
@@ -156,7 +163,9 @@ class Room : public std::enable_shared_from_this<Room> {
   Herald herald_;
   Authors authors_;
   Line line_;
+  Slicer slicer_;                // what it prepares is aside in the line
   std::size_t turn_chunks_ = 0;  // to be meshed again, of this turn, a chunk once an edit
+  std::uint64_t turn_rows_ = 0;  // that this turn looked at, a row once a stamp
   std::map<ViewerId, Seat> seats_;
   ViewerId last_viewer_ = 0;
   std::optional<RoomFigures> figures_;  // the last ones asked for

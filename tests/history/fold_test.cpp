@@ -28,6 +28,21 @@ TEST(Fold, WithoutBoundsReachesAsFarAsTheWorld) {
   EXPECT_EQ(make_map({}).grid().bounds, std::nullopt);
 }
 
+TEST(Fold, AnEditStampsItsPathInOrder) {
+  Edit edit = disc(1, 2, 3);
+  edit.fill = false;
+  edit.path.push_back({4, 5});
+  const auto stamps = stencils(edit);
+  ASSERT_EQ(stamps.size(), 2u);
+  EXPECT_EQ(stamps[0].x, 1);
+  EXPECT_EQ(stamps[0].y, 2);
+  EXPECT_EQ(stamps[1].x, 4);
+  EXPECT_EQ(stamps[1].y, 5);
+  EXPECT_EQ(stamps[1].radius, 3);
+  EXPECT_EQ(stamps[1].shape, voxel::Shape::circle);
+  EXPECT_EQ(stamps[1].fill, voxel::Fill::empty);
+}
+
 TEST(Fold, FillsAndEmpties) {
   voxel::Map map = make_map({});
   apply(map, {.stencil = StencilShape::square, .radius = 2, .path = {{8, 8}}, .stroke = {}});

@@ -148,11 +148,18 @@ struct Client {
   }
 };
 
+/// One in ten is too large to be applied at once, one in three is elsewhere.
 protocol::Edit some_edit() {
-  const double x = *rc::gen::inRange(0, 320) / 8.0, y = *rc::gen::inRange(0, 320) / 8.0;
+  const double away = *rc::gen::element(0.0, 0.0, 300.0);
+  const double x = *rc::gen::inRange(0, 320) / 8.0 + away, y = *rc::gen::inRange(0, 320) / 8.0;
   const double radius = *rc::gen::inRange(0, 70) / 8.0;
   const bool fill = *rc::gen::weightedElement<bool>({{2, true}, {1, false}});
-  return *rc::gen::arbitrary<bool>() ? box(x, y, radius, fill) : disc(x, y, radius, fill);
+  if (*rc::gen::inRange(0, 10) != 0)
+    return *rc::gen::arbitrary<bool>() ? box(x, y, radius, fill) : disc(x, y, radius, fill);
+  protocol::Edit large = disc(x, y, 20, fill);  // 7 x 7 chunks each
+  large.is_path = true;
+  for (int i = 1; i < 170; ++i) large.path.push_back({x + i / 16.0, y});
+  return large;
 }
 
 void act(Client& client) {
@@ -211,6 +218,7 @@ TEST(ExactlyOnce, HoldsUnderResendsDisconnectsAndRejoins) {
     const int steps = *rc::gen::inRange(0, 60);
     for (int i = 0; i < steps; ++i) {
       act(clients[*rc::gen::inRange<std::size_t>(0, clients.size())]);
+      world.context.run(*rc::gen::inRange(0, 3));  // in the midst of a large one, maybe
       if (*rc::gen::inRange(0, 3) != 0) continue;
       world.context.advance(*rc::gen::element(0ms, 40ms, 200ms));
       for (Client& client : clients) client.listen();

@@ -155,6 +155,53 @@ TEST(Line, KnowsHowLongTheOldestHasWaited) {
   EXPECT_EQ(line.oldest_wait_ms(1000), 0);  // the clock was set back
 }
 
+TEST(Line, WhoIsPutAsideKeepsItsPlace) {
+  Line line;
+  for (int id = 1; id <= 2; ++id)
+    for (const std::uint64_t author : {1u, 2u, 3u}) ASSERT_TRUE(line.push(edit(author, id)));
+  EXPECT_EQ(line.next().command.author, 1u);
+  line.put_aside();
+  EXPECT_EQ(line.next().command.author, 2u);
+  line.put_aside();
+  ASSERT_TRUE(line.push(edit(1, 3)));
+  EXPECT_EQ(line.pop().command.author, 3u);
+  EXPECT_EQ(line.pop().command.author, 3u);
+  EXPECT_FALSE(line.has_next());
+  EXPECT_FALSE(line.empty());
+  EXPECT_EQ(line.size(), 5u);
+  EXPECT_EQ(line.points(), 5u);
+  EXPECT_EQ(line.oldest_wait_ms(70), 70);
+
+  ASSERT_TRUE(line.push(edit(4, 1)));
+  line.recall();
+  EXPECT_EQ(drain(line), "1:1 2:1 1:2 2:2 4:1 1:3");
+  EXPECT_TRUE(line.empty());
+}
+
+TEST(Line, WhatWasPutAsideIsTakenByItsAuthor) {
+  Line line;
+  for (int id = 1; id <= 2; ++id)
+    for (const std::uint64_t author : {1u, 2u}) ASSERT_TRUE(line.push(edit(author, id, 4, 3)));
+  line.put_aside(), line.put_aside();
+  EXPECT_EQ(line.take(2).command.id, 1);
+  EXPECT_EQ(line.points(), 9u);
+  EXPECT_EQ(line.next().command.author, 2u);
+  EXPECT_EQ(line.next().command.id, 2);
+  line.recall();
+  EXPECT_EQ(drain(line), "1:1 1:2 2:2");
+}
+
+TEST(Line, ClearForgetsWhoWasPutAside) {
+  Line line;
+  ASSERT_TRUE(line.push(edit(1, 1)));
+  line.put_aside();
+  line.clear();
+  line.recall();
+  EXPECT_TRUE(line.empty());
+  EXPECT_FALSE(line.has_next());
+  EXPECT_EQ(line.size(), 0u);
+}
+
 /// Whatever comes and goes: each edit once, those of an author in order, and between two authors
 /// who both wait all the while the work differs by no more than the largest edit of each.
 TEST(Line, IsFairInEveryOrderOfEvents) {
