@@ -95,6 +95,7 @@ TEST(WebSocket, HandsNothingOnWhileItIsPaused) {
       written_early = written;
       received_early = c.received.size();
       c.socket.pause_reading(false);
+      timer.reset();  // before its loop
     });
   });
   EXPECT_EQ(received_early, 0u);
