@@ -1,6 +1,5 @@
 #include "server/room/room.hpp"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -19,19 +18,14 @@ constexpr int kTurnEdits = 512;
 constexpr std::size_t kTurnDirtyChunks = 1024;
 constexpr std::uint64_t kTurnRows = 262'144;
 
-/// Inside what the centre of an edit may have.
-protocol::Result<void> check_place(const protocol::MapPoint& at,
-                                   const protocol::MapSettings& settings) {
-  const double most = protocol::kMaxCoordinateVoxels * settings.voxel_size;
-  for (const auto& [field, value] : {std::pair("x", at.x), std::pair("y", at.y)}) {
-    if (std::abs(value) <= most) continue;
-    return protocol::fail(Code::out_of_range,
-                          std::string(field) + ": is beyond the limit of " +
-                              std::to_string(std::lround(protocol::kMaxCoordinateVoxels)) +
-                              " voxels",
-                          field);
-  }
-  return {};
+/// The stamp that a click at the cursor would be.
+protocol::Edit stamp_at(const protocol::MapPoint& at, const protocol::Brush& brush) {
+  return {.layer = brush.layer,
+          .stencil = brush.stencil,
+          .fill = brush.fill,
+          .radius = brush.radius,
+          .path = {at},
+          .stroke = {}};
 }
 
 }  // namespace
@@ -102,8 +96,10 @@ void Room::heard(ViewerId viewer) { herald_.heard(viewer); }
 
 protocol::Result<void> Room::point(ViewerId viewer, const protocol::Cursor& cursor) {
   if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "cursor: join a map first");
-  if (cursor.at)
-    if (auto checked = check_place(*cursor.at, settings_); !checked) return checked;
+  if (cursor.at) {
+    const protocol::Edit stamp = stamp_at(*cursor.at, cursor.brush.value_or(protocol::Brush{}));
+    if (auto checked = protocol::check_edit(stamp, settings_); !checked) return checked;
+  }
   herald_.point(viewer, cursor);
   return {};
 }

@@ -96,9 +96,9 @@ class Room : public std::enable_shared_from_this<Room> {
   /// The viewer has sent the last talk on, and takes the next one.
   void heard(ViewerId viewer);
 
-  /// Where the viewer points, for the others. Fails with out_of_range for a place beyond what an
-  /// edit may have. Of what comes before the others are told, ten times a second, the last counts;
-  /// a cursor that is not said again for kCursorMs is hidden.
+  /// Where the viewer points, for the others. Fails as `submit` would for a stamp of its brush
+  /// there, or of radius 0. Of what comes before the others are told, ten times a second, the last
+  /// counts; a cursor that is not said again for kCursorMs is hidden.
   [[nodiscard]] protocol::Result<void> point(ViewerId viewer, const protocol::Cursor& cursor);
   /// Tells the viewer all events from `from_seq` on, and those to come. Fails with out_of_range
   /// beyond the next seq. Asked again, it starts anew from there.

@@ -167,6 +167,14 @@ std::vector<Limit> other_limits() {
        "x", "1000000"},
       {"cursor_y", "cursor", R"("x":0,"y":-1000000)", R"("x":0,"y":-1000000.0001)", "out_of_range",
        "y", "1000000"},
+      {"brush_radius", "cursor",
+       R"("x":0,"y":0,"brush":{"stencil":"circle","radius":512,"fill":true})",
+       R"("x":0,"y":0,"brush":{"stencil":"circle","radius":512.0001,"fill":true})", "out_of_range",
+       "radius", "512", "m64"},
+      {"brush_layer", "cursor",
+       R"("x":0,"y":0,"brush":{"stencil":"circle","radius":1,"fill":true,"layer":0})",
+       R"("x":0,"y":0,"brush":{"stencil":"circle","radius":1,"fill":true,"layer":1})",
+       "out_of_range", "layer", "1"},
   };
 }
 
