@@ -24,6 +24,7 @@ BufferedSocket::Error BufferedSocket::flush() {
   if (!flushed()) return error;
   std::string().swap(waiting_);
   left_ = 0;
+  ++flushes_;
   flushed_.cancel();
   return error;
 }

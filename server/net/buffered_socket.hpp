@@ -18,6 +18,7 @@
 #include <boost/beast/websocket/teardown.hpp>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -71,7 +72,8 @@ class BufferedSocket {
   boost::asio::steady_timer flushed_;  // never due; cancelled when all that waited has left
   std::function<void()> on_output_ = [] {};
   std::string waiting_;
-  std::size_t left_ = 0;  // of waiting_, which is empty when all has
+  std::size_t left_ = 0;       // of waiting_, which is empty when all has
+  std::uint64_t flushes_ = 0;  // how often all that waited has left
   Clock::time_point last_byte_ = Clock::now();
 };
 
@@ -93,8 +95,9 @@ auto BufferedSocket::async_read_some(const Buffers& buffers, Token&& token) {
 template <class Buffers, class Token>
 auto BufferedSocket::async_write_some(const Buffers& buffers, Token&& token) {
   return boost::asio::async_compose<Token, void(Error, std::size_t)>(
-      [this, buffers, started = false](auto& self, Error = {}) mutable {
+      [this, buffers, started = false, before = std::uint64_t{0}](auto& self, Error = {}) mutable {
         if (!std::exchange(started, true)) {
+          before = flushes_;
           for (auto part = boost::asio::buffer_sequence_begin(buffers);
                part != boost::asio::buffer_sequence_end(buffers); ++part) {
             const boost::asio::const_buffer bytes(*part);
@@ -103,8 +106,8 @@ auto BufferedSocket::async_write_some(const Buffers& buffers, Token&& token) {
           on_output_();
           return flushed_.async_wait(std::move(self));
         }
-        if (!socket_.is_open() || !flushed())
-          return self.complete(boost::asio::error::operation_aborted, 0);
+        // Something newer may wait again by now.
+        if (flushes_ == before) return self.complete(boost::asio::error::operation_aborted, 0);
         self.complete({}, boost::asio::buffer_size(buffers));
       },
       token, socket_);

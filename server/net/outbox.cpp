@@ -46,12 +46,14 @@ void Outbox::take(std::string& out, std::size_t enough, OutboxCounts& counts) {
 bool Outbox::take_next(std::string& out, OutboxCounts& counts) {
   if (!control_.empty()) {
     take_control(out, counts);
-  } else if (!talk_.messages.empty()) {
+  } else if (!talk_.messages.empty() && !(meshes_next_ && parcel_)) {
     append_counted(out, counts, Kind::text, *talk_.messages[next_talk_++]);
     if (next_talk_ < talk_.messages.size()) return true;
     talk_ = {};
     talk_taken_ = true;
+    meshes_next_ = true;
   } else if (parcel_) {
+    meshes_next_ = false;
     if (!parcel_->through()) parcel_->append_next(out, counts);
     if (!parcel_->through()) return true;
     parcel_.reset();

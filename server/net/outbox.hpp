@@ -49,6 +49,7 @@ class Outbox {
   OutboxCounts control_counts_;
   room::Talk talk_;
   std::size_t next_talk_ = 0;
+  bool meshes_next_ = false;  // a talk is through: whoever reads slowly must not hear only talks
   std::optional<ParcelMessages> parcel_;
   bool parcel_taken_ = false, talk_taken_ = false;  // and not written yet
   bool ending_ = false;

@@ -41,10 +41,25 @@ protocol::Result<void> Publisher::look(ViewerId id, const protocol::View& view) 
                               std::to_string(protocol::kMaxViewChunks),
                           "all");
   if (const auto found = shows_.find(id); found != shows_.end()) {
-    found->second.subscription.look(view, settings_, state());
+    std::optional<protocol::View>& wanted = found->second.wanted;
+    if (wanted)
+      wanted = then_looks(*wanted, view);
+    else
+      lookers_.push_back(id), wanted = view;
     publish_soon();
   }
   return {};
+}
+
+void Publisher::take_up_a_view() {
+  if (lookers_.empty()) return;
+  const auto found = shows_.find(lookers_.front());
+  lookers_.pop_front();
+  if (found != shows_.end()) {
+    const protocol::View view = *std::exchange(found->second.wanted, std::nullopt);
+    found->second.subscription.look(view, settings_, state());
+  }
+  if (!lookers_.empty()) publish_soon();
 }
 
 void Publisher::ready(ViewerId id) {
@@ -158,6 +173,7 @@ bool Publisher::refresh(std::size_t budget) {
     if (!round_->help(maker_, budget)) return false;
     end_round();
   }
+  if (latest_ != seq_) publish_soon();  // also what changed no mesh has a number to tell
   take_in_pending();
   if (meshes_.stale_count() > 0) {
     make_here(meshes_.some_stale(budget));
@@ -189,6 +205,7 @@ void Publisher::publish_soon() {
   publish_scheduled_ = true;
   later_(std::chrono::milliseconds{0}, [this] {
     publish_scheduled_ = false;
+    take_up_a_view();
     if (held())
       publish(Beat::wait);
     else

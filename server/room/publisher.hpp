@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_set>
 #include <vector>
@@ -33,7 +35,7 @@ inline constexpr std::chrono::milliseconds kLongestRest{50};
 
 /// Meshes are made in rounds: all that viewers who are ready wait for, as of the seq that is shown,
 /// which then stays until the round is over. A small round is made at once; a larger one on the
-/// thread pool, while the map goes on. So what is shown is behind the map by a round at most, is
+/// thread pool, while the map goes on. So what is shown is behind the map by a round or a rest, is
 /// consistent at any time, and no round is ever made in vain.
 ///
 /// The more viewers there are, the more edits they are shown at a time: after something was shown,
@@ -63,8 +65,9 @@ class Publisher {
   void leave(ViewerId id);
   void leave_all() { shows_.clear(); }
 
-  /// Changes what the viewer is shown; parcels follow later, never from within the call. Fails
-  /// with too_large for more than kMaxViewChunks. Nothing happens for nobody.
+  /// Changes what the viewer is shown; parcels follow later, never from within the call. Of views
+  /// that come faster than they can be taken up the last one counts. Fails with too_large for more
+  /// than kMaxViewChunks. Nothing happens for nobody.
   [[nodiscard]] protocol::Result<void> look(ViewerId id, const protocol::View& view);
   /// The viewer takes the next parcel: from within the call, if there is one.
   void ready(ViewerId id);
@@ -91,9 +94,11 @@ class Publisher {
   struct Show {
     Viewer* viewer = nullptr;
     Subscription subscription;
-    bool ready = true;  // to take a parcel
+    std::optional<protocol::View> wanted;  // asked for, and not taken up yet
+    bool ready = true;                     // to take a parcel
   };
 
+  void take_up_a_view();
   void go_on();
   void show_news();
   /// No mesh can be made now of what is shown: a round makes them, or the map has gone on and
@@ -121,13 +126,14 @@ class Publisher {
 
   MeshCache meshes_;          // as of seq_,
   std::uint64_t seq_ = 0;     // which is shown, as far as meshes are made
-  std::uint64_t latest_ = 0;  // the map's: ahead of seq_ during a round only
+  std::uint64_t latest_ = 0;  // the map's: ahead of seq_ during a round or a rest
   std::unordered_set<voxel::ChunkKey, voxel::ChunkKeyHash> pending_;  // different in between
   std::shared_ptr<MeshRound> round_;                                  // that runs
   MeshMaker maker_;                                                   // the strand's
   MeshRound::Makers makers_;                                          // for rounds, when none runs
   std::map<ViewerId, Show> shows_;
-  ViewerId last_loader_ = 0;  // whose first load was the last in a plan
+  std::deque<ViewerId> lookers_;  // whose views are wanted; one is taken up at a time
+  ViewerId last_loader_ = 0;      // whose first load was the last in a plan
   bool publish_scheduled_ = false, beat_scheduled_ = false;
   bool resting_ = false;  // what is new is not taken in yet
 };

@@ -34,18 +34,18 @@ std::vector<voxel::ChunkKey> Subscription::candidates(const ViewArea& area,
 void Subscription::look(const protocol::View& view, const protocol::MapSettings& settings,
                         const MapState& state) {
   const ViewArea before = area_;
-  std::set<voxel::ChunkKey> unseen_before;
-  for (const Ranked& ranked : unseen_) unseen_before.insert(ranked.second);
+  const std::set<Ranked> unseen_before = std::move(unseen_);
 
   area_ = ViewArea(view.rect, settings);
   layers_ = settings.layers.size();
-  claim_.reset();
-  if (view.have && view.have->epoch == protocol::hex(state.epoch) && view.have->seq <= state.seq)
-    claim_ = Claim{ViewArea(view.have->rect, settings), view.have->seq};
+  take_claim(view, settings, state);
 
-  unseen_.clear();
+  std::vector<Ranked> unseen;
   for (const voxel::ChunkKey& key : candidates(area_, state.meshes))
-    if (!before.contains(key) || unseen_before.contains(key)) unseen_.insert(ranked(key));
+    if (!before.contains(key) || unseen_before.contains({before.distance(key), key}))
+      unseen.push_back(ranked(key));
+  std::sort(unseen.begin(), unseen.end());
+  unseen_ = std::set<Ranked>(unseen.begin(), unseen.end());
   for (auto* keys : {&owed_, &claimed_})
     std::erase_if(*keys, [&](const voxel::ChunkKey& key) { return !area_.contains(key); });
 
@@ -53,6 +53,18 @@ void Subscription::look(const protocol::View& view, const protocol::MapSettings&
   looks_ = true;
   view_ = view.n;
   caught_up_ = false;
+}
+
+// What was claimed before is still held where no view has left it: until all of it was gone
+// through, a chunk that was removed meanwhile must be told.
+void Subscription::take_claim(const protocol::View& view, const protocol::MapSettings& settings,
+                              const MapState& state) {
+  if (view.have) {
+    claim_.reset();
+    if (view.have->epoch == protocol::hex(state.epoch) && view.have->seq <= state.seq)
+      claim_ = Claim{ViewArea(view.have->rect, settings), view.have->seq};
+  }
+  if (claim_) claim_->area = claim_->area.cut_to(area_);
 }
 
 void Subscription::owe(std::span<const voxel::ChunkKey> dirty) {
@@ -87,6 +99,7 @@ Parcel Subscription::compose(const MapState& state, Beat beat) {
   if (unseen_.empty() && !caught_up_) {
     parcel.caught_up = protocol::CaughtUp{.n = view_, .seq = state.seq};
     caught_up_ = true;
+    claim_.reset();
     told_seq_ = state.seq;
   }
   return parcel;

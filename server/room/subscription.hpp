@@ -62,6 +62,8 @@ class Subscription {
     return {area_.distance(key), key};
   }
   std::vector<voxel::ChunkKey> candidates(const ViewArea& area, const MeshCache& meshes) const;
+  void take_claim(const protocol::View& view, const protocol::MapSettings& settings,
+                  const MapState& state);
   bool owes_stale(const MeshCache& meshes) const;
   std::vector<RecordBytes> take_owed(const MapState& state);
   std::vector<RecordBytes> take_unseen(const MapState& state);

@@ -24,10 +24,20 @@ class ViewArea {
   /// How far the chunk is from the view's middle: squared, in half chunks. Without a rectangle
   /// the middle is the bounds', or the map's origin.
   [[nodiscard]] std::uint64_t distance(const voxel::ChunkKey& key) const;
+  /// What is inside both.
+  [[nodiscard]] ViewArea cut_to(const ViewArea& other) const {
+    ViewArea both;
+    both.range_ = protocol::intersection(range_, other.range_);
+    return both;
+  }
   [[nodiscard]] const protocol::ChunkRange& range() const { return range_; }
 
  private:
   protocol::ChunkRange range_;
 };
+
+/// `second`, said after `first` and before anything of that was sent: with what `first` claimed, as
+/// far as it lies inside it, unless it makes a claim of its own.
+[[nodiscard]] protocol::View then_looks(const protocol::View& first, protocol::View second);
 
 }  // namespace earthwork::room

@@ -217,5 +217,22 @@ TEST_F(DeliveryTest, ACloseIsAnsweredBehindWhatWasOnItsWay) {
   EXPECT_TRUE(rest.ends_with(kClosed));
 }
 
+TEST_F(DeliveryTest, PingsOfWhoReadsSlowlyDoNoHarm) {
+  paint_dots();
+  const auto viewer = raw_guest();
+  viewer->send(masked_text(kViewAll));
+  viewer->read_until("\"done\"");
+  // Each finds the socket full, and new meshes behind its answer.
+  constexpr int kPings = 40;
+  const std::string word = "are you there";
+  std::string all;
+  for (int i = 0; i < kPings; ++i) {
+    ASSERT_TRUE(viewer->send(ping_frame(word + std::to_string(100 + i))));
+    all += viewer->read_until(word + std::to_string(100 + i));
+  }
+  all += viewer->read_until("\"caught_up\"");
+  EXPECT_GT(all.size(), kMapBytes - kOnTheWayBytes);
+}
+
 }  // namespace
 }  // namespace earthwork::net

@@ -247,5 +247,20 @@ RC_GTEST_PROP(Outbox, KeepsOrderAndBoundaries, ()) {
   for (const std::size_t size : seen.sizes) RC_ASSERT(size <= protocol::kMaxFrameBytes);
 }
 
+TEST(Outbox, TalksWithoutEndLeaveRoomForMeshes) {
+  Outbox outbox;
+  outbox.put(room::Parcel{.first_seen = {record(1, 3000), record(2, 3000), record(3, 3000)}});
+  std::size_t talks = 0;
+  for (int i = 0; i < 20; ++i) {
+    outbox.put(room::Talk{{shared("{}"), shared("{}")}});
+    while (outbox.has_talk())
+      for (const WireMessage& message : take(outbox)) talks += message.kind == Kind::text;
+    (void)outbox.written();
+    if (!outbox.has_parcel()) break;
+  }
+  EXPECT_FALSE(outbox.has_parcel());
+  EXPECT_LT(talks, 20u);
+}
+
 }  // namespace
 }  // namespace earthwork::net

@@ -228,6 +228,16 @@ TEST(Publisher, NoCrowdRestsForLongerThanATwentiethOfASecond) {
   EXPECT_EQ(painter.eyes->parcels.size(), 2u);
 }
 
+TEST_F(CrowdTest, IsToldASeqThatAnExportTookIn) {
+  edit(painter, disc(40, 40, 3));
+  room->ready(seen.id);
+  edit(painter, disc(40, 40, 3));  // changes nothing, and rests
+  while (!room->refresh_meshes(100)) {
+  }
+  context.advance(1s);
+  EXPECT_EQ(seq_shown(), 402u);
+}
+
 /// What a viewer was given, step by step.
 void check_steps(const World::Guest& guest, std::size_t& checked, std::uint64_t& told,
                  const World& world) {

@@ -246,5 +246,64 @@ TEST_F(SubscriptionTest, AClaimCountsInsideItsRectangleOnly) {
   EXPECT_EQ(b.eyes->first_seen(), 132u);
 }
 
+TEST_F(SubscriptionTest, AClaimIsStillTrueWhenTheViewMoves) {
+  Guest before = enter();
+  look(before, view_rect(1, {1, 1, 95, 95}));
+  edit(painter, dot(1, 1, false));
+  edit(painter, dot(11, 11, false));
+  Guest again = enter();
+  again.eyes->chunks = before.eyes->chunks;  // but for what a group has removed
+  for (const auto& [key, record] : before.eyes->chunks) again.eyes->chunks[key] = record;
+  const auto place = [](int x, int y) { return ChunkKey{0, x, y, 0}; };
+  again.eyes->chunks[place(1, 1)].key = place(1, 1);
+  again.eyes->chunks[place(11, 11)].key = place(11, 11);
+  ASSERT_TRUE(room->look(again.id, claim(1, seq, "000000000000abcd")));
+  context.run(1);  // it is taken up, and not through yet
+  look(again, view_rect(2, {1, 1, 80, 80}));
+  EXPECT_FALSE(again.eyes->chunks.contains(place(1, 1)));
+  EXPECT_LE(again.eyes->first_seen(), 3u);  // what is held does not come again
+}
+
+TEST_F(SubscriptionTest, AViewThatOvertakesAnotherKeepsItsClaim) {
+  Guest before = enter();
+  look(before, view_rect(1, {1, 1, 95, 95}));
+  edit(painter, dot(1, 1, false));
+  Guest again = enter();
+  again.eyes->chunks[ChunkKey{0, 1, 1, 0}].key = {0, 1, 1, 0};
+  ASSERT_TRUE(room->look(again.id, claim(1, seq, "000000000000abcd")));
+  ASSERT_TRUE(room->look(again.id, view_rect(2, {1, 1, 80, 80})));
+  settle(again);
+  ASSERT_TRUE(again.eyes->parcels.back().caught_up);
+  EXPECT_EQ(again.eyes->parcels.back().caught_up->n, 2u);
+  EXPECT_FALSE(again.eyes->chunks.contains(ChunkKey{0, 1, 1, 0}));
+  EXPECT_LE(again.eyes->first_seen(), 2u);
+}
+
+TEST_F(SubscriptionTest, AFloodOfViewsIsOneView) {
+  Guest a = enter();
+  for (std::uint32_t n = 1; n <= 64; ++n)
+    ASSERT_TRUE(room->look(a.id, view_rect(n, {1, 1, 8.0 + n, 95})));
+  EXPECT_LE(context.run(), 20);
+  settle(a);
+  ASSERT_TRUE(a.eyes->parcels.back().caught_up);
+  EXPECT_EQ(a.eyes->parcels.back().caught_up->n, 64u);
+}
+
+TEST(ThenLooks, KeepsOfAnEarlierClaimWhatBothViewsHold) {
+  using protocol::Have, protocol::MapRect, protocol::View;
+  const Have have{.epoch = "fedcba9876543210", .seq = 7, .rect = {0, 0, 10, 10}};
+  const View first{.n = 1, .rect = MapRect{5, -5, 20, 20}, .have = have, .id = 1};
+  View second{.n = 2, .rect = MapRect{0, 0, 8, 8}, .have = {}, .id = 2};
+  ASSERT_TRUE(then_looks(first, second).have);
+  EXPECT_EQ(then_looks(first, second).have->rect, (MapRect{5, 0, 10, 10}));
+  EXPECT_EQ(then_looks(first, second).n, 2u);
+  const View elsewhere{.n = 1, .rect = MapRect{11, 0, 20, 20}, .have = have, .id = {}};
+  EXPECT_FALSE(then_looks(elsewhere, second).have);
+  const View everything{.n = 1, .rect = {}, .have = have, .id = {}};
+  EXPECT_EQ(then_looks(everything, second).have, have);
+  second.have = Have{.epoch = "0000000000000000", .seq = 1, .rect = {0, 0, 1, 1}};
+  EXPECT_EQ(then_looks(first, second), second);
+}
+
 }  // namespace
 }  // namespace earthwork::room
