@@ -27,10 +27,9 @@ inline std::vector<WireMessage> wire_messages(std::string_view bytes) {
   while (!bytes.empty()) {
     const std::uint64_t first = number(0, 1);
     EXPECT_TRUE(first == 0x81 || first == 0x82) << first;
-    std::uint64_t length = number(1, 1);
-    std::size_t head = 2;
-    if (length == 126) length = number(2, 2), head = 4;
-    if (length == 127) length = number(2, 8), head = 10;
+    const std::uint64_t form = number(1, 1);
+    const std::size_t head = form == 126 ? 4 : form == 127 ? 10 : 2;
+    const std::uint64_t length = form < 126 ? form : number(2, head - 2);
     EXPECT_LE(head + length, bytes.size());
     messages.push_back(
         {first == 0x81 ? Kind::text : Kind::binary, std::string(bytes.substr(head, length))});
