@@ -59,23 +59,6 @@ std::string_view records_head() {
   return {kHead, kHeadBytes};
 }
 
-RecordPacker::RecordPacker(std::function<void(std::string)> emit) : emit_(std::move(emit)) {}
-
-void RecordPacker::add(std::string_view record) {
-  while (!record.empty()) {
-    if (message_.empty()) message_ = records_head();
-    const std::size_t piece = std::min(record.size(), kMaxFrameBytes - message_.size());
-    message_ += record.substr(0, piece);
-    record.remove_prefix(piece);
-    if (message_.size() == kMaxFrameBytes) finish();
-  }
-}
-
-void RecordPacker::finish() {
-  if (message_.empty()) return;
-  emit_(std::exchange(message_, {}));
-}
-
 Result<void> FrameReader::feed(std::span<const std::byte> message, std::vector<FrameEvent>& out) {
   if (message.size() > kMaxFrameBytes)
     return refuse("message", std::to_string(message.size()) + " bytes are beyond the limit of " +

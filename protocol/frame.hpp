@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,21 +31,6 @@ struct GroupEnd {
 [[nodiscard]] std::string encode(const GroupEnd& end);
 /// What a message of records begins with; the next piece of the record stream follows.
 [[nodiscard]] std::string_view records_head();
-
-/// Packs encoded records (`encode_record`, `encode_delta`) into messages of at most kMaxFrameBytes:
-/// many small ones into one message, one large one across several.
-class RecordPacker {
- public:
-  /// `emit` receives each finished message.
-  explicit RecordPacker(std::function<void(std::string)> emit);
-  void add(std::string_view record);
-  /// Emits what is left, if anything.
-  void finish();
-
- private:
-  std::function<void(std::string)> emit_;
-  std::string message_;
-};
 
 /// A ChunkDelta only between GroupBegin and GroupEnd.
 using FrameEvent = std::variant<GroupBegin, ChunkRecord, ChunkDelta, GroupEnd>;

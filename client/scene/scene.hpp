@@ -31,7 +31,7 @@ struct SceneStats {
   friend bool operator==(const SceneStats&, const SceneStats&) = default;
 };
 
-/// One thread at a time.
+/// Told of the join before anything else, then of all that arrives, in order. One thread at a time.
 class Scene {
  public:
   using Chunks = std::map<protocol::ChunkKey, SceneChunk>;

@@ -42,10 +42,8 @@ protocol::Result<void> Publisher::look(ViewerId id, const protocol::View& view) 
                           "all");
   if (const auto found = shows_.find(id); found != shows_.end()) {
     std::optional<protocol::View>& wanted = found->second.wanted;
-    if (wanted)
-      wanted = then_looks(*wanted, view);
-    else
-      lookers_.push_back(id), wanted = view;
+    if (!wanted) lookers_.push_back(id);
+    wanted = wanted ? then_looks(*wanted, view) : view;
     publish_soon();
   }
   return {};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/frame.hpp"
+#include "tests/protocol/record_packer.hpp"
 
 namespace earthwork::bench {
 namespace {

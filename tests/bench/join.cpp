@@ -138,6 +138,8 @@ class Joiner {
   }
 
   void take(const protocol::ServerMessage& message) {
+    if (const auto* joined = std::get_if<protocol::Joined>(&message))
+      scene_.join(protocol::parse_hex(joined->epoch).value(), joined->seq);
     if (!std::holds_alternative<protocol::CaughtUp>(message)) return;
     done_ = true;
     result_ = {.from_connecting_ms = ms_since(started_),

@@ -96,13 +96,16 @@ class Onlooker {
                    },
                .message =
                    [this](const auto& message) {
+                     if (const auto* joined = std::get_if<protocol::Joined>(&message))
+                       scene_.join(protocol::parse_hex(joined->epoch).value(), joined->seq);
                      if (const auto* said = std::get_if<protocol::CaughtUp>(&message))
                        scene_.catch_up(said->n, said->seq);
                      close_when_done();
                    },
                .frame =
                    [this](auto& events, std::size_t bytes) {
-                     EXPECT_TRUE(scene_.take(events, bytes));
+                     const auto taken = scene_.take(events, bytes);
+                     EXPECT_TRUE(taken) << taken.error().detail;
                      close_when_done();
                    },
                .closed = {}}) {}

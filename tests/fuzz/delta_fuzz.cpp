@@ -8,6 +8,7 @@
 #include "protocol/limits.hpp"
 #include "protocol/record_delta.hpp"
 #include "tests/fuzz/expect.hpp"
+#include "tests/fuzz/mesh_promises.hpp"
 
 namespace earthwork::protocol {
 namespace {
@@ -28,12 +29,7 @@ std::string take_record(Bytes& input) {
   return record;
 }
 
-void check_promises(const ChunkMesh& mesh) {
-  expect(mesh.vertices.size() <= kMaxVertices, "count of vertices");
-  for (const MeshPoint& vertex : mesh.vertices)
-    expect(vertex.x >= 0 && vertex.x < kMeshCoordinateEnd && vertex.y >= 0 &&
-               vertex.y < kMeshCoordinateEnd,
-           "coordinates");
+void check_full_record(const ChunkMesh& mesh) {
   std::string bytes;
   encode_record({.key = {}, .revision = 1, .removed = false, .mesh = mesh}, bytes);
   const auto again = decode_record(bytes_of(bytes));
@@ -66,6 +62,7 @@ void check(Bytes input) {
   auto applied = apply_delta(base->mesh, *delta);
   if (!applied) return expect(!applied.error().detail.empty(), "a refusal says why");
   check_promises(applied->mesh);
+  check_full_record(applied->mesh);
   applied->key = base->key;
   applied->revision = base->revision + 1;
   if (applied->revision != 0) check_between(*base, *applied);

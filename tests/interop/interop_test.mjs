@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { once } from 'node:events';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import {
@@ -11,17 +11,10 @@ import {
 import { createMap, deleteMap, describeMap, figuresOf } from './maps.mjs';
 import { twiceArea } from './mesh_hash.mjs';
 import { openRims } from './rims.mjs';
-import { startServer } from './server_process.mjs';
+import { serverForThisFile } from './server_process.mjs';
 
 const UNIT = 32768;
-let server;
-let url;
-
-before(async () => {
-  server = await startServer();
-  url = server.url;
-});
-after(async () => assert.equal(await server?.stop(), 0));
+const url = await serverForThisFile();
 
 const join = (t, map, who) => joinAt(t, url, map, who);
 const watch = (t, map, rect) => watchAt(t, url, map, rect);

@@ -1,19 +1,12 @@
 // People and events, as a client is told of them: against the real server.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { eventually, inTime, join as joinAt, paint, square, stamps } from './bots.mjs';
 import { createMap, describeMap } from './maps.mjs';
 import { People } from './people.mjs';
-import { startServer } from './server_process.mjs';
+import { serverForThisFile } from './server_process.mjs';
 
-let server;
-let url;
-
-before(async () => {
-  server = await startServer();
-  url = server.url;
-});
-after(async () => assert.equal(await server?.stop(), 0));
+const url = await serverForThisFile();
 
 const join = (t, map, who) => joinAt(t, url, map, who);
 const until = (client, holds) => eventually(client, 'presence', holds);

@@ -2,24 +2,17 @@
 // a wire that is cut.
 import assert from 'node:assert/strict';
 import { once } from 'node:events';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { waitBefore } from './backoff.mjs';
 import {
   assertHolds, eventually, inTime, join, paint, speckles, square, stamps, watch,
 } from './bots.mjs';
 import { Client } from './client.mjs';
 import { createMap, deleteMap, describeMap, figuresOf } from './maps.mjs';
-import { startServer } from './server_process.mjs';
+import { serverForThisFile, startServer } from './server_process.mjs';
 import { layWire } from './wire.mjs';
 
-let server;
-let url;
-
-before(async () => {
-  server = await startServer();
-  url = server.url;
-});
-after(async () => assert.equal(await server?.stop(), 0));
+const url = await serverForThisFile();
 
 const oneLayer = (edits) => edits.map((stamp) => ({ ...stamp, layer: 0 }));
 const places = (records) => records.map(({ x, y }) => `${x},${y}`).sort();

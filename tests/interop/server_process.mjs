@@ -1,7 +1,9 @@
 // The real server, on a port of its own, for as long as a test file runs.
+import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { createInterface } from 'node:readline';
+import { after } from 'node:test';
 
 const program = process.env.EARTHWORK_SERVER;
 
@@ -22,4 +24,11 @@ export async function startServer() {
       return ended;
     },
   };
+}
+
+// Starts it for all tests of a file, after which it must end well. Returns its url.
+export async function serverForThisFile() {
+  const server = await startServer();
+  after(async () => assert.equal(await server.stop(), 0));
+  return server.url;
 }

@@ -5,6 +5,7 @@
 
 #include "protocol/limits.hpp"
 #include "tests/protocol/arbitrary.hpp"
+#include "tests/protocol/record_packer.hpp"
 #include "tests/protocol/samples.hpp"
 
 namespace earthwork::protocol {

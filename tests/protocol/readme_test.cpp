@@ -11,6 +11,7 @@
 #include "protocol/messages.hpp"
 #include "protocol/script.hpp"
 #include "tests/protocol/readable.hpp"
+#include "tests/protocol/record_packer.hpp"
 #include "tests/protocol/samples.hpp"
 
 namespace earthwork::protocol {
