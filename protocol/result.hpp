@@ -27,6 +27,11 @@ enum class Code : std::uint8_t {
   not_supported,    ///< Understood, and not offered by this server.
   timeout,          ///< Nothing was heard for too long.
   shutting_down,    ///< The server ends.
+  disk_full,        ///< There is no room to store it now.
+  read_only,        ///< The server may not write where it stores.
+  storage_failed,   ///< Storing or reading failed for another reason.
+  damaged,          ///< What was stored is not what is there.
+  unavailable,      ///< Not to be had right now.
   internal,
 };
 
