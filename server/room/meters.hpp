@@ -10,7 +10,7 @@
 
 namespace earthwork::room {
 
-/// Any thread; each number stands for itself, and only `sessions` ever falls.
+/// Any thread; each number stands for itself, and only `sessions` and `waiting_events` ever fall.
 struct Meters {
   using Count = std::atomic<std::uint64_t>;
 
@@ -22,8 +22,18 @@ struct Meters {
   Count controls{0}, control_bytes{0};  ///< Text messages.
   std::atomic<std::int64_t> sessions{0};
 
+  // Of journals, counted by the rooms that hand their events to them. With a journal in memory too.
+  Count commits{0};           ///< Batches that became durable,
+  Count committed_events{0};  ///< the events in them,
+  Count commit_ns{0};  ///< and how long each took from when it was handed over, all added up.
+  std::atomic<std::int64_t> waiting_events{0};  ///< Accepted; neither durable nor taken back yet.
+  Count keyframes{0};                           ///< That were put.
+
   /// Refusals, by their code.
   std::array<Count, static_cast<std::size_t>(protocol::Code::internal) + 1> rejected{};
+  /// What journals failed with: a batch, a keyframe, a map that could not be made, opened or
+  /// removed. By their code.
+  std::array<Count, static_cast<std::size_t>(protocol::Code::internal) + 1> journal_failures{};
 };
 
 }  // namespace earthwork::room
