@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <vector>
 
 #include "protocol/messages.hpp"
 #include "server/history/event.hpp"
+#include "server/room/past_events.hpp"
 #include "server/room/viewer.hpp"
 
 namespace earthwork::room {
@@ -17,24 +17,28 @@ namespace earthwork::room {
 [[nodiscard]] protocol::Event to_protocol(const history::Event& event);
 
 /// A follower is a place in the list of events: it waits there as long as it likes, and costs
-/// nothing. One thread at a time.
+/// nothing. On the strand of the room whose part it is.
 class EventFeed {
  public:
   /// From `from_seq` on, which is at least 1; whoever follows already starts anew from there.
   void follow(ViewerId id, std::uint64_t from_seq) { next_[id] = from_seq; }
   void leave(ViewerId id);
-  /// Those who follow, each with the seq that it is told next.
-  [[nodiscard]] const std::map<ViewerId, std::uint64_t>& followers() const { return next_; }
+  /// Those who follow, in the order in which they are to be told when a page of the past has come:
+  /// so that whoever reads the past gets a page in turn.
+  [[nodiscard]] std::vector<ViewerId> followers() const;
+  [[nodiscard]] bool empty() const { return next_.empty(); }
 
   /// Adds the next messages for the viewer, as many as fit into `bytes`; if `out` is empty at least
-  /// one. `events` is all that was accepted, event n at n - 1. Nothing for who does not follow.
-  void tell(ViewerId id, std::span<const history::Event> events, std::size_t bytes,
-            std::vector<SharedText>& out);
+  /// one. Ends before an event that `events` has to read first. When that cannot be read, a
+  /// `rejected` without an id says so, and the viewer follows no more. Nothing for who does not
+  /// follow.
+  void tell(ViewerId id, PastEvents& events, std::size_t bytes, std::vector<SharedText>& out);
 
  private:
   [[nodiscard]] SharedText text_of(const history::Event& event);
 
   std::map<ViewerId, std::uint64_t> next_;     // seq
+  ViewerId last_reader_ = 0;                   // for whom a page was read last
   std::map<std::uint64_t, SharedText> texts_;  // by seq: of the latest that were told
   std::size_t texts_bytes_ = 0;
 };

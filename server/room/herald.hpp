@@ -24,8 +24,8 @@ class Herald {
   /// Runs a task on that strand after a delay, or not at all when the room is gone by then.
   using Later = std::function<void(std::chrono::milliseconds delay, std::function<void()> task)>;
 
-  /// `events` is all that the map accepted, event n at n - 1. It and `clock` outlive the herald.
-  Herald(const std::vector<history::Event>& events, const Strand& clock, Later later);
+  /// Is called when a page of `events` comes. They and `clock` outlive the herald.
+  Herald(PastEvents& events, const Strand& clock, Later later);
 
   /// `viewer` stays until it leaves. Its user is told to the others soon.
   void enter(ViewerId id, Viewer& viewer, protocol::User user);
@@ -39,12 +39,13 @@ class Herald {
 
   /// None of these calls a viewer, apart from `heard`, and none does anything for nobody.
   void point(ViewerId id, const protocol::Cursor& cursor);
-  /// From `from_seq` on, at least 1 and at most the next event's.
+  /// From `from_seq` on, at least 1 and at most the one after `events.last_seq()`.
   void follow(ViewerId id, std::uint64_t from_seq);
   /// The viewer takes the next talk: from within the call, if there is one.
   void heard(ViewerId id);
 
-  /// There may be new events: tells them to the viewers that follow and hear.
+  /// There may be new events, or a page of past ones: tells them to the viewers that follow and
+  /// hear.
   void tell_events();
 
  private:
@@ -58,7 +59,7 @@ class Herald {
   void tick();
   void hide_cursors_after(std::chrono::milliseconds delay);
 
-  const std::vector<history::Event>& events_;
+  PastEvents& events_;
   const Strand& clock_;
   const Later later_;
   PresenceBoard board_;

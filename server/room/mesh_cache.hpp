@@ -7,11 +7,13 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
+#include "server/journal/chunk_ages.hpp"
 #include "server/room/mesh_record.hpp"
 #include "server/voxel/chunk_key.hpp"
+#include "server/voxel/map.hpp"
 
 namespace earthwork::room {
 
@@ -22,14 +24,31 @@ struct MeshTotals {
   friend bool operator==(const MeshTotals&, const MeshTotals&) = default;
 };
 
+/// What a chunk's next mesh comes after, and is told as.
+struct Forerunner {
+  std::optional<CachedMesh> mesh;  ///< The last one; none when there was none, or none is known.
+  bool seen_unknown = false;       ///< Before the start viewers may have got one.
+  std::uint64_t revision = 0;      ///< Of the next mesh, if it is another one.
+};
+
 /// Holds at most one encoded record for each chunk of the map that has or had a mesh. Starts as
 /// that of an empty map. One thread at a time.
 class MeshCache {
  public:
+  /// Begins with a map that was there before: meshes that are not known here may have been seen,
+  /// each as of a seq up to the age of the chunks that its cells reach into. No mesh is made. On a
+  /// cache that holds nothing; `ages` name all chunks of `map` and those that are gone.
+  void restore(const voxel::Map& map, std::span<const journal::ChunkAge> ages);
+
   /// The cells of these chunks are different now.
-  void mark_stale(std::span<const voxel::ChunkKey> keys) {
-    stale_.insert(keys.begin(), keys.end());
-  }
+  void mark_stale(std::span<const voxel::ChunkKey> keys);
+  /// For a mesh that is made as of `seq`: whoever makes it takes its revision from here. A chunk
+  /// that no edit has touched since the start has an older one, so that who saw its mesh before
+  /// the start is not sent it again.
+  [[nodiscard]] Forerunner forerunner(const voxel::ChunkKey& key, std::uint64_t seq) const;
+  /// The chunk has what it had before, and is stale: the mesh that was put after `before` was never
+  /// shown, because what it was made of was taken back.
+  void take_back(const voxel::ChunkKey& key, Forerunner before);
   /// What `find` gives is not the chunk's mesh.
   [[nodiscard]] bool stale(const voxel::ChunkKey& key) const { return stale_.contains(key); }
   /// The mesh that the chunk had last; null when it never had one. Valid until it is put.
@@ -55,8 +74,17 @@ class MeshCache {
   [[nodiscard]] std::vector<RecordBytes> records() const;
 
  private:
+  struct Stale {
+    std::uint64_t revision = 0;  // of its next mesh; 0: the seq as of which that is made
+    bool seen_unknown = false;
+    bool bare = false;  // nothing that its cells reach into is filled: it has no mesh
+  };
+
+  void replace(const voxel::ChunkKey& key, std::optional<CachedMesh> mesh);
+
   std::map<voxel::ChunkKey, CachedMesh> meshes_;
-  std::unordered_set<voxel::ChunkKey, voxel::ChunkKeyHash> stale_;
+  std::unordered_map<voxel::ChunkKey, Stale, voxel::ChunkKeyHash> stale_;
+  std::size_t bare_ = 0;  // of the stale ones
   MeshTotals totals_;
 };
 

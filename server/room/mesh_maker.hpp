@@ -6,7 +6,7 @@
 #include <string>
 
 #include "server/mesh/mesher.hpp"
-#include "server/room/mesh_record.hpp"
+#include "server/room/mesh_cache.hpp"
 #include "server/voxel/map.hpp"
 
 namespace earthwork::room {
@@ -17,11 +17,11 @@ class MeshMaker {
   /// `max_feature_angle` in degrees, > 0 and <= 175.
   explicit MeshMaker(double max_feature_angle) : mesher_(max_feature_angle) {}
 
-  /// The mesh of chunk `key` as of `seq`, where `before` is the one it had, or null. Nothing when
-  /// it is no other one: then what was before goes on, with its revision.
+  /// The mesh of chunk `key`, after `before`. Nothing when it is no other one: then what was before
+  /// goes on, with its revision.
   [[nodiscard]] std::optional<CachedMesh> make(const voxel::ChunkKey& key,
                                                const voxel::Neighbourhood& chunks, int resolution,
-                                               const CachedMesh* before, std::uint64_t seq);
+                                               const Forerunner& before);
 
  private:
   mesh::Mesher mesher_;
