@@ -7,7 +7,7 @@ server_packages=(
   cmake ninja-build ccache clang-19 lld-19
   libboost1.81-dev libboost-url1.81-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev libpng-dev libsodium-dev
-  prometheus-cpp-dev
+  prometheus-cpp-dev libsqlite3-dev
 )
 # llvm-19 holds the symbolizer that makes a sanitizer's stack traces readable.
 # shellcheck disable=SC2034
