@@ -1,6 +1,7 @@
 #include "server/room/mesh_cache.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -8,8 +9,19 @@ namespace earthwork::room {
 namespace {
 
 MeshTotals contribution(const CachedMesh& cached) {
-  if (cached.removed) return {};
+  if (cached.removed || !cached.bytes) return {};
   return {cached.hash_term, 1, cached.triangles, cached.vertices, cached.bytes->size()};
+}
+
+/// Something in it is filled where the cells of a chunk reach into it: of the chunk itself, of the
+/// one to its left, below, or below left.
+bool shows(const voxel::Chunk& chunk, bool left, bool below) {
+  if (left && below) return chunk.filled(0, 0);
+  if (below) return chunk.row(0) != 0;
+  if (!left) return true;
+  for (int y = 0; y < chunk.resolution(); ++y)
+    if (chunk.filled(0, y)) return true;
+  return false;
 }
 
 }  // namespace
@@ -19,43 +31,102 @@ const CachedMesh* MeshCache::find(const voxel::ChunkKey& key) const {
   return found == meshes_.end() ? nullptr : &found->second;
 }
 
-void MeshCache::put(const voxel::ChunkKey& key, std::optional<CachedMesh> made) {
-  if (made) {
-    const auto [place, first] = meshes_.try_emplace(key);
-    const MeshTotals before = first ? MeshTotals{} : contribution(place->second);
-    const MeshTotals now = contribution(*made);
-    totals_.hash += now.hash - before.hash;
-    totals_.chunks += now.chunks - before.chunks;
-    totals_.triangles += now.triangles - before.triangles;
-    totals_.vertices += now.vertices - before.vertices;
-    totals_.bytes += now.bytes - before.bytes;
-    place->second = std::move(*made);
+// The cells of a chunk reach into the chunks to its right, above and above right. So the mesh of
+// each of these four was last different by an event not after the age of the youngest it reaches.
+void MeshCache::restore(const voxel::Map& map, std::span<const journal::ChunkAge> ages) {
+  assert(stale_.empty() && meshes_.empty());
+  const voxel::ChunkRect extent = map.grid().extent();
+  stale_.reserve(ages.size() + ages.size() / 4);
+  for (const auto& [key, seq] : ages) {
+    const voxel::Chunk* chunk = map.find(key);
+    for (const auto& [left, below] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+      const voxel::ChunkKey reaching{key.layer, key.x - left, key.y - below, key.z};
+      if (!extent.contains(reaching.x, reaching.y)) continue;
+      const auto [place, first] = stale_.try_emplace(reaching);
+      Stale& stale = place->second;
+      if (first) stale = {.seen_unknown = true, .bare = true}, ++bare_;
+      stale.revision = std::max(stale.revision, seq);
+      if (stale.bare && chunk && shows(*chunk, left != 0, below != 0)) stale.bare = false, --bare_;
+    }
   }
-  stale_.erase(key);
+}
+
+void MeshCache::mark_stale(std::span<const voxel::ChunkKey> keys) {
+  for (const voxel::ChunkKey& key : keys) {
+    Stale& stale = stale_[key];
+    if (stale.bare) --bare_;
+    stale.bare = false;
+    stale.revision = 0;
+  }
+}
+
+Forerunner MeshCache::forerunner(const voxel::ChunkKey& key, std::uint64_t seq) const {
+  Forerunner before{.mesh = {}, .seen_unknown = false, .revision = seq};
+  if (const CachedMesh* mesh = find(key)) before.mesh = *mesh;
+  if (const auto found = stale_.find(key); found != stale_.end()) {
+    before.seen_unknown = found->second.seen_unknown;
+    if (found->second.revision != 0) before.revision = found->second.revision;
+  }
+  return before;
+}
+
+void MeshCache::put(const voxel::ChunkKey& key, std::optional<CachedMesh> made) {
+  if (made) replace(key, std::move(made));
+  const auto found = stale_.find(key);
+  if (found == stale_.end()) return;
+  if (found->second.bare) --bare_;
+  stale_.erase(found);
+}
+
+// The revision of the next one is the seq as of which it is made: that is never too low.
+void MeshCache::take_back(const voxel::ChunkKey& key, Forerunner before) {
+  replace(key, std::move(before.mesh));
+  mark_stale(std::span(&key, 1));
+  stale_[key].seen_unknown = before.seen_unknown;
+}
+
+void MeshCache::replace(const voxel::ChunkKey& key, std::optional<CachedMesh> mesh) {
+  const auto place = meshes_.try_emplace(key).first;
+  const MeshTotals before = contribution(place->second);
+  const MeshTotals now = mesh ? contribution(*mesh) : MeshTotals{};
+  totals_.hash += now.hash - before.hash;
+  totals_.chunks += now.chunks - before.chunks;
+  totals_.triangles += now.triangles - before.triangles;
+  totals_.vertices += now.vertices - before.vertices;
+  totals_.bytes += now.bytes - before.bytes;
+  if (mesh)
+    place->second = std::move(*mesh);
+  else
+    meshes_.erase(place);
 }
 
 std::vector<voxel::ChunkKey> MeshCache::some_stale(std::size_t most) const {
-  const auto count = static_cast<std::ptrdiff_t>(std::min(most, stale_.size()));
-  return {stale_.begin(), std::next(stale_.begin(), count)};
+  std::vector<voxel::ChunkKey> keys;
+  keys.reserve(std::min(most, stale_.size()));
+  for (auto next = stale_.begin(); next != stale_.end() && keys.size() < most; ++next)
+    keys.push_back(next->first);
+  return keys;
 }
 
 bool MeshCache::may_have_mesh(const voxel::ChunkKey& key) const {
-  if (stale_.contains(key)) return true;
+  if (const auto found = stale_.find(key); found != stale_.end()) return !found->second.bare;
   const auto found = meshes_.find(key);
   return found != meshes_.end() && !found->second.removed;
 }
 
 std::size_t MeshCache::count() const {
-  const auto meshed = [&](const voxel::ChunkKey& key) {
-    const auto found = meshes_.find(key);
+  const auto meshed = [&](const auto& entry) {
+    const auto found = meshes_.find(entry.first);
     return found != meshes_.end() && !found->second.removed;
   };
   const auto both = std::count_if(stale_.begin(), stale_.end(), meshed);
-  return totals_.chunks + stale_.size() - static_cast<std::size_t>(both);
+  return totals_.chunks + stale_.size() - bare_ - static_cast<std::size_t>(both);
 }
 
 std::vector<voxel::ChunkKey> MeshCache::keys() const {
-  std::vector<voxel::ChunkKey> keys(stale_.begin(), stale_.end());
+  std::vector<voxel::ChunkKey> keys;
+  keys.reserve(stale_.size() + meshes_.size());
+  for (const auto& [key, stale] : stale_) keys.push_back(key);
   for (const auto& [key, cached] : meshes_)
     if (!stale_.contains(key)) keys.push_back(key);
   std::sort(keys.begin(), keys.end());

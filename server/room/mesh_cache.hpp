@@ -62,7 +62,8 @@ class MeshCache {
 
   /// It has a mesh, or may have one.
   [[nodiscard]] bool may_have_mesh(const voxel::ChunkKey& key) const;
-  /// Every chunk that `may_have_mesh`, and those whose mesh was removed, in order.
+  /// Every chunk that `may_have_mesh`, and those whose mesh was removed, here or before the start;
+  /// in order.
   [[nodiscard]] std::vector<voxel::ChunkKey> keys() const;
   /// How many chunks `may_have_mesh`; takes time with the stale ones.
   [[nodiscard]] std::size_t count() const;

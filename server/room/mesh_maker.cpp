@@ -28,27 +28,29 @@ CachedMesh removal(const voxel::ChunkKey& key, std::uint64_t seq) {
 
 std::optional<CachedMesh> MeshMaker::make(const voxel::ChunkKey& key,
                                           const voxel::Neighbourhood& chunks, int resolution,
-                                          const CachedMesh* before, std::uint64_t seq) {
-  const bool had_mesh = before && !before->removed;
+                                          const Forerunner& before) {
+  const bool had_mesh = before.mesh && !before.mesh->removed;
   mesher_.mesh(chunks, resolution, mesh_);
-  if (mesh_.empty()) return had_mesh ? std::optional(removal(key, seq)) : std::nullopt;
-
+  if (mesh_.empty()) {
+    if (!had_mesh && !before.seen_unknown) return std::nullopt;
+    return removal(key, before.revision);
+  }
   const protocol::ChunkRecord record{
-      .key = to_protocol(key), .revision = seq, .mesh = to_protocol(mesh_)};
+      .key = to_protocol(key), .revision = before.revision, .mesh = to_protocol(mesh_)};
   bytes_.clear();
   protocol::encode_record(record, bytes_);
-  if (had_mesh && mesh_part(bytes_) == mesh_part(*before->bytes)) return std::nullopt;
+  if (had_mesh && mesh_part(bytes_) == mesh_part(*before.mesh->bytes)) return std::nullopt;
   CachedMesh made{
       .bytes = std::make_shared<const std::string>(bytes_.begin(), bytes_.end()),
-      .revision = seq,
+      .revision = before.revision,
       .removed = false,
       .hash_term = protocol::mesh_hash_term(record.key, protocol::mesh_hash(record.mesh)),
       .triangles = record.mesh.triangles.size() / 3,
       .vertices = record.mesh.vertices.size()};
   delta_.clear();
-  if (had_mesh && protocol::encode_delta(*before->bytes, bytes_, delta_)) {
+  if (had_mesh && protocol::encode_delta(*before.mesh->bytes, bytes_, delta_)) {
     made.delta = std::make_shared<const std::string>(delta_.begin(), delta_.end());
-    made.base_revision = before->revision;
+    made.base_revision = before.mesh->revision;
   }
   return made;
 }

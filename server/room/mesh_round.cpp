@@ -15,15 +15,13 @@ constexpr std::size_t kSliceChunks = 8;
 
 MeshRound::MeshRound(const voxel::Map& map, const MeshCache& cache,
                      std::span<const voxel::ChunkKey> keys, std::uint64_t seq)
-    : seq_(seq), count_(keys.size()), left_(keys.size()) {
+    : count_(keys.size()), left_(keys.size()) {
   items_.reserve(keys.size());
-  for (const voxel::ChunkKey& key : keys) {
-    const CachedMesh* before = cache.find(key);
+  for (const voxel::ChunkKey& key : keys)
     items_.push_back({.key = key,
                       .chunks = voxel::KeptNeighbourhood(map, key),
-                      .before = before ? std::optional(*before) : std::nullopt,
+                      .before = cache.forerunner(key, seq),
                       .made = {}});
-  }
 }
 
 void MeshRound::start(Workplace place, Makers makers, std::shared_ptr<Meters> meters,
@@ -59,8 +57,7 @@ bool MeshRound::make(std::span<Item> items, MeshMaker& maker) {
   try {
     const MeshingTime time(*meters_, items.size());
     for (Item& item : items)
-      item.made = maker.make(item.key, item.chunks.view(), item.chunks.resolution(),
-                             item.before ? &*item.before : nullptr, seq_);
+      item.made = maker.make(item.key, item.chunks.view(), item.chunks.resolution(), item.before);
   } catch (...) {
     if (!failed_.test_and_set()) failure_ = std::current_exception();
   }

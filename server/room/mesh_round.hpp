@@ -59,14 +59,14 @@ class MeshRound : public std::enable_shared_from_this<MeshRound> {
   struct Item {
     voxel::ChunkKey key;
     voxel::KeptNeighbourhood chunks;
-    std::optional<CachedMesh> before, made;
+    Forerunner before;
+    std::optional<CachedMesh> made;
   };
 
   void run_slice(std::size_t lane);
   std::span<Item> take(std::size_t most);
   bool make(std::span<Item> items, MeshMaker& maker);
 
-  const std::uint64_t seq_;
   const std::size_t count_;
   std::vector<Item> items_;
   std::atomic<std::size_t> taken_{0};  // items that somebody works at or has made, from the first

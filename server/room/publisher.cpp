@@ -142,7 +142,7 @@ void Publisher::make_here(std::span<const voxel::ChunkKey> keys) {
   const MeshingTime time(*meters_, keys.size());
   for (const voxel::ChunkKey& key : keys)
     meshes_.put(key, maker_.make(key, map_.neighbourhood(key), map_.grid().resolution,
-                                 meshes_.find(key), seq_));
+                                 meshes_.forerunner(key, seq_)));
 }
 
 void Publisher::start_round(std::span<const voxel::ChunkKey> keys) {

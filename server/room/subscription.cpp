@@ -20,7 +20,7 @@ std::vector<voxel::ChunkKey> Subscription::candidates(const ViewArea& area,
   if (claim_ || range.count() > meshes.count()) {
     // Removed chunks are listed too: a viewer that claims to have some must hear of them.
     for (const voxel::ChunkKey& key : meshes.keys())
-      if (area.contains(key)) keys.push_back(key);
+      if (area.contains(key) && (claim_ || meshes.may_have_mesh(key))) keys.push_back(key);
     return keys;
   }
   for (std::int32_t layer = 0; layer < static_cast<std::int32_t>(layers_); ++layer)
