@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "protocol/chunk_record.hpp"
@@ -12,6 +13,14 @@ namespace {
 // Of the texts that were written so much is kept for the next follower. Those who follow live are
 // told the same within one turn; who reads the past rarely meets another at the same place.
 constexpr std::size_t kKeptBytes = std::size_t{1} << 20;
+
+/// That the events end before `seq`. What is wrong inside the server is for its own log.
+SharedText refusal(protocol::Code code, std::uint64_t seq) {
+  return std::make_shared<const std::string>(protocol::write(protocol::Rejected{
+      .id = {},
+      .failure = {code, "from_seq: the events from " + std::to_string(seq) + " on cannot be read",
+                  "from_seq"}}));
+}
 
 }  // namespace
 
@@ -30,13 +39,31 @@ void EventFeed::leave(ViewerId id) {
   texts_bytes_ = 0;
 }
 
-void EventFeed::tell(ViewerId id, std::span<const history::Event> events, std::size_t bytes,
+std::vector<ViewerId> EventFeed::followers() const {
+  std::vector<ViewerId> ids;
+  ids.reserve(next_.size());
+  const auto first = next_.upper_bound(last_reader_);
+  for (auto place = first; place != next_.end(); ++place) ids.push_back(place->first);
+  for (auto place = next_.begin(); place != first; ++place) ids.push_back(place->first);
+  return ids;
+}
+
+void EventFeed::tell(ViewerId id, PastEvents& events, std::size_t bytes,
                      std::vector<SharedText>& out) {
   const auto found = next_.find(id);
   if (found == next_.end()) return;
   std::uint64_t& next = found->second;
-  for (; next <= events.size(); ++next) {
-    SharedText text = text_of(events[next - 1]);
+  for (; next <= events.last_seq(); ++next) {
+    const auto event = events.find(next);
+    if (!event) {
+      out.push_back(refusal(event.error().code, next));
+      return leave(id);
+    }
+    if (!*event) {
+      if (events.reading() == next) last_reader_ = id;
+      return;
+    }
+    SharedText text = text_of(**event);
     if (text->size() > bytes && !out.empty()) return;
     bytes -= std::min(bytes, text->size());
     out.push_back(std::move(text));

@@ -13,8 +13,10 @@ constexpr milliseconds kTick{100};
 
 }  // namespace
 
-Herald::Herald(const std::vector<history::Event>& events, const Strand& clock, Later later)
-    : events_(events), clock_(clock), later_(std::move(later)) {}
+Herald::Herald(PastEvents& events, const Strand& clock, Later later)
+    : events_(events), clock_(clock), later_(std::move(later)) {
+  events_.when_page_comes([this] { tell_events(); });
+}
 
 void Herald::enter(ViewerId id, Viewer& viewer, protocol::User user) {
   listeners_[id].viewer = &viewer;
@@ -25,6 +27,7 @@ void Herald::enter(ViewerId id, Viewer& viewer, protocol::User user) {
 void Herald::leave(ViewerId id) {
   listeners_.erase(id);
   feed_.leave(id);
+  if (feed_.empty()) events_.forget_pages();
   board_.leave(id);
   people_changed();
 }
@@ -32,6 +35,7 @@ void Herald::leave(ViewerId id) {
 void Herald::leave_all() {
   listeners_.clear();
   feed_ = {};
+  events_.forget_pages();
   board_ = {};
 }
 
@@ -58,7 +62,8 @@ void Herald::heard(ViewerId id) {
 }
 
 void Herald::tell_events() {
-  for (const auto& [id, next] : feed_.followers()) talk_to(id, listeners_.at(id));
+  for (const ViewerId id : feed_.followers()) talk_to(id, listeners_.at(id));
+  if (feed_.empty()) events_.forget_pages();
 }
 
 void Herald::talk_to(ViewerId id, Listener& listener) {

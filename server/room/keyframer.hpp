@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <span>
@@ -50,6 +49,9 @@ class Keyframer {
   };
   /// `start` is how the map began: all of it is durable. What `subject` refers to outlives it.
   Keyframer(Subject subject, const journal::Restored& start);
+  ~Keyframer();
+  Keyframer(const Keyframer&) = delete;
+  Keyframer& operator=(const Keyframer&) = delete;
 
   /// The map has this event now, which changed these chunks' voxels: `Change::changed`.
   void accepted(const history::Event& event, std::span<const voxel::ChunkKey> changed);
@@ -64,9 +66,9 @@ class Keyframer {
   void taken_back();
 
   /// Makes a last keyframe if anything happened since the newest, after the one in the making, and
-  /// then calls `done`, whether or not it could be made: maybe from within the call. When nothing
-  /// is accepted that is not durable. Should something be accepted before `done`, the keyframe may
-  /// be left out. Not again before `done`.
+  /// then calls `done`, whether or not it could be made: maybe from within the call. `done` must
+  /// not end this object. When nothing is accepted that is not durable; should something be
+  /// accepted before `done`, the keyframe may be left out. Not again before `done`.
   void finish(std::function<void()> done);
 
   /// Nothing is with the clerk, or waits for a batch.
@@ -82,19 +84,21 @@ class Keyframer {
   [[nodiscard]] bool due() const;
   void begin();
   void go_on();
-  void came(bool went_well);
+  void came(const protocol::Result<bool>& outcome);
+  void note_put();
   void drop();
-  void end();
+  void wind_up();
 
   const Subject subject_;
-  Moment accepted_, handed_over_, durable_;  // in this order the later
-  ChunkSeqs changed_;                        // since the newest keyframe or attempt: last by which
+  Moment accepted_, handed_over_, durable_;    // each at or after the next
+  ChunkSeqs changed_;                          // since the newest keyframe: by which event last
   std::unordered_set<std::uint64_t> authors_;  // likewise: who has new ids
-  std::uint64_t newest_seq_;                   // of a keyframe
-  std::uint64_t tried_seq_;                    // of the last attempt, or newest_seq_
-  std::unique_ptr<Attempt> attempt_;           // in the making
+  std::uint64_t newest_seq_;                   // of a keyframe that is put
+  std::uint64_t tried_seq_;                    // of the last one that was, or could not be
+  std::unique_ptr<Attempt> attempt_;           // has taken over changed_ and authors_
   bool posting_ = false;
-  std::function<void()> finished_;  // set: a last one is wanted
+  std::function<void()> finished_;  // set: a last one is wanted,
+  bool last_ = false;               // and in the making
 };
 
 }  // namespace earthwork::room

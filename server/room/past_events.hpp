@@ -69,7 +69,7 @@ class PastEvents {
 
   journal::Clerk& clerk_;
   const std::function<Workplace()> workplace_;
-  std::function<void()> came_;
+  std::function<void()> came_ = [] {};
   std::uint64_t last_seq_;
   std::deque<history::Event> window_;  // up to last_seq_
   std::size_t window_bytes_ = 0;
