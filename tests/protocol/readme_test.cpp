@@ -9,6 +9,7 @@
 #include "protocol/frame.hpp"
 #include "protocol/limits.hpp"
 #include "protocol/messages.hpp"
+#include "protocol/recording.hpp"
 #include "protocol/script.hpp"
 #include "tests/protocol/readable.hpp"
 #include "tests/protocol/record_packer.hpp"
@@ -97,6 +98,20 @@ TEST(Readme, ShowsAScriptThatIsRead) {
   ASSERT_TRUE(script) << script.error().detail;
   EXPECT_TRUE(script->settings);
   EXPECT_GE(script->steps.size(), 3u);
+}
+
+TEST(Readme, ShowsARecordingAsItIsWritten) {
+  const auto lines = lines_of(blocks().at("json recording"));
+  ASSERT_EQ(lines.size(), 3u);
+  const auto head = read_recording_head(lines[0]);
+  ASSERT_TRUE(head) << head.error().detail;
+  EXPECT_EQ(write(*head), lines[0]);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const auto event = read_recorded_event(lines[i]);
+    ASSERT_TRUE(event) << event.error().detail;
+    EXPECT_EQ(event->seq, i);
+    EXPECT_EQ(write(*event), lines[i]);
+  }
 }
 
 TEST(Readme, ListsEveryLimitWithItsNumber) {
