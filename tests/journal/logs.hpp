@@ -1,0 +1,79 @@
+/// Logs to test with: events as a room would have accepted them, and journals that hold them.
+#pragma once
+
+#include <rapidcheck/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "server/history/fold.hpp"
+#include "server/journal/execution.hpp"
+#include "server/journal/memory_journal.hpp"
+#include "server/journal/whole_keyframe.hpp"
+
+namespace earthwork::journal {
+
+inline Identity small_identity() {
+  Identity identity{.settings = {}, .epoch = 0xfedcba9876543210, .created_ms = 1700000000000};
+  identity.settings.chunk_resolution = 8;
+  return identity;
+}
+
+/// Numbers them from 1 on, gives them to three authors in turn, and fills in the hashes.
+inline std::vector<history::Event> accepted(const std::vector<protocol::Edit>& edits) {
+  voxel::Map map = history::make_map(small_identity().settings);
+  std::vector<history::Event> events;
+  for (const protocol::Edit& edit : edits) {
+    const std::uint64_t seq = events.size() + 1;
+    history::apply(map, edit);
+    events.push_back({.seq = seq,
+                      .time_ms = static_cast<std::int64_t>(1700000000000 + 10 * seq),
+                      .author = 0xa0 + seq % 3,
+                      .id = static_cast<std::int64_t>(100 + seq),
+                      .edit = edit,
+                      .hash = map.hash()});
+  }
+  return events;
+}
+
+inline protocol::Edit disc(double x, double y, double radius, bool fill = true) {
+  return {.fill = fill, .radius = radius, .path = {{x, y}}, .stroke = {}};
+}
+
+/// Discs that fill and empty, close enough together that chunks come and go.
+inline rc::Gen<std::vector<protocol::Edit>> some_edits() {
+  const auto place = rc::gen::map(rc::gen::inRange(-60, 60), [](int n) { return n / 2.0; });
+  return rc::gen::container<std::vector<protocol::Edit>>(rc::gen::apply(
+      disc, place, place, rc::gen::map(rc::gen::inRange(0, 24), [](int n) { return n / 2.0; }),
+      rc::gen::weightedElement<bool>({{3, true}, {2, false}})));
+}
+
+/// Appends `events`, with a keyframe after each of `keyframes` as of the seq it names.
+inline void fill(Journal& journal, const std::vector<history::Event>& events,
+                 const std::vector<std::uint64_t>& keyframes) {
+  Execution executed(journal.identity().settings);
+  for (const history::Event& event : events) {
+    RC_ASSERT(executed.apply(event).has_value());
+    RC_ASSERT(journal.append(event.seq - 1, {&event, 1}).has_value());
+    for (const std::uint64_t seq : keyframes)
+      if (seq == event.seq)
+        RC_ASSERT(put_whole_keyframe(journal, executed, event.time_ms).has_value());
+  }
+}
+
+inline std::unique_ptr<Journal> journal_of(const std::vector<history::Event>& events,
+                                           const std::vector<std::uint64_t>& keyframes = {}) {
+  auto journal = make_memory_journal(small_identity());
+  fill(*journal, events, keyframes);
+  return journal;
+}
+
+/// Nine discs in a row, each as large as a chunk; the fourth one is taken away again.
+inline std::vector<history::Event> ten_events() {
+  std::vector<protocol::Edit> edits;
+  for (int i = 0; i < 9; ++i) edits.push_back(disc(10.0 * i, 4, 3));
+  edits.push_back(disc(30, 4, 5, false));
+  return accepted(edits);
+}
+
+}  // namespace earthwork::journal
