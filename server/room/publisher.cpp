@@ -26,7 +26,12 @@ Publisher::Publisher(Subject subject, Later later, std::function<Workplace()> wo
       meters_(std::move(subject.meters)),
       later_(std::move(later)),
       workplace_(std::move(workplace)),
-      maker_(settings_.max_feature_angle) {}
+      seq_(subject.seq),
+      latest_(subject.seq),
+      durable_(subject.seq),
+      maker_(settings_.max_feature_angle) {
+  meshes_.restore(map_, subject.ages);
+}
 
 void Publisher::enter(ViewerId id, Viewer& viewer) { shows_[id].viewer = &viewer; }
 
@@ -49,15 +54,24 @@ protocol::Result<void> Publisher::look(ViewerId id, const protocol::View& view) 
   return {};
 }
 
-void Publisher::take_up_a_view() {
-  if (lookers_.empty()) return;
+/// Gives back how many chunks are to be loaded for it.
+std::size_t Publisher::take_up_a_view() {
+  if (lookers_.empty()) return 0;
   const auto found = shows_.find(lookers_.front());
   lookers_.pop_front();
-  if (found != shows_.end()) {
-    const protocol::View view = *std::exchange(found->second.wanted, std::nullopt);
-    found->second.subscription.look(view, settings_, state());
-  }
-  if (!lookers_.empty()) publish_soon();
+  if (found == shows_.end()) return 0;
+  const protocol::View view = *std::exchange(found->second.wanted, std::nullopt);
+  found->second.subscription.look(view, settings_, state());
+  return found->second.subscription.owed_chunks();
+}
+
+// Only while what is shown is durable: what a viewer is held to know is never taken back. As much
+// at a time as the largest view takes.
+void Publisher::take_up_views() {
+  if (lookers_.empty()) return;
+  for (std::size_t chunks = 0; !lookers_.empty() && chunks < protocol::kMaxViewChunks; ++chunks)
+    chunks += take_up_a_view();
+  publish_soon();
 }
 
 void Publisher::ready(ViewerId id) {
@@ -74,19 +88,42 @@ void Publisher::ready(ViewerId id) {
   publish_to(show, Beat::wait);
 }
 
-void Publisher::changed(const voxel::Change& change) {
+void Publisher::changed(const voxel::Change& change, std::uint64_t seq) {
+  latest_ = seq;
   for (const voxel::DirtyChunk& chunk : change.dirty) pending_.insert(chunk.key);
 }
 
-void Publisher::show(std::uint64_t seq) {
-  latest_ = seq;
-  show_news();
+void Publisher::durable(std::uint64_t seq) {
+  const bool waited = !shown_is_durable();
+  durable_ = seq;
+  if (!waited || !shown_is_durable()) return;
+  before_.clear();
+  take_up_views();
+  publish(std::exchange(beat_waits_, false) ? Beat::due : Beat::wait);
 }
 
+void Publisher::show() { show_news(); }
+
 void Publisher::show_news() {
-  if (round_ || resting_ || latest_ == seq_) return;
+  if (round_ || resting_ || latest_ == seq_ || !shown_is_durable()) return;
   rest();
   go_on();
+}
+
+// Viewers keep what they are owed for what is gone: that is more than they need, and when it is
+// made again it is what they have.
+void Publisher::taken_back() {
+  latest_ = durable_;
+  if (!shown_is_durable()) {
+    round_.reset();
+    for (auto& [key, before] : std::exchange(before_, {})) {
+      meshes_.take_back(key, std::move(before));
+      pending_.insert(key);
+    }
+    seq_ = delivered_;
+  }
+  if (latest_ == seq_) pending_.clear();
+  publish_soon();
 }
 
 void Publisher::rest() {
@@ -109,10 +146,12 @@ void Publisher::go_on() {
 }
 
 void Publisher::take_in_pending() {
+  if (shown_is_durable()) delivered_ = seq_;
   seq_ = latest_;
   if (pending_.empty()) return;
   const std::vector<voxel::ChunkKey> dirty(pending_.begin(), pending_.end());
   pending_.clear();
+  remember(dirty);
   meshes_.mark_stale(dirty);
   for (auto& [id, show] : shows_) show.subscription.owe(dirty);
 }
@@ -131,6 +170,13 @@ RoundPlan Publisher::plan_for_all() {
   return plan;
 }
 
+/// What these chunks have is about to be replaced, maybe by what will be taken back.
+void Publisher::remember(std::span<const voxel::ChunkKey> keys) {
+  if (shown_is_durable()) return;
+  for (const voxel::ChunkKey& key : keys)
+    if (!before_.contains(key)) before_.emplace(key, meshes_.forerunner(key, seq_));
+}
+
 void Publisher::make(const std::vector<voxel::ChunkKey>& keys) {
   if (keys.size() > kMadeHere)
     start_round(keys);
@@ -139,6 +185,7 @@ void Publisher::make(const std::vector<voxel::ChunkKey>& keys) {
 }
 
 void Publisher::make_here(std::span<const voxel::ChunkKey> keys) {
+  remember(keys);
   const MeshingTime time(*meters_, keys.size());
   for (const voxel::ChunkKey& key : keys)
     meshes_.put(key, maker_.make(key, map_.neighbourhood(key), map_.grid().resolution,
@@ -146,6 +193,7 @@ void Publisher::make_here(std::span<const voxel::ChunkKey> keys) {
 }
 
 void Publisher::start_round(std::span<const voxel::ChunkKey> keys) {
+  remember(keys);
   while (makers_.size() < kSlicesAtOnce)
     makers_.push_back(std::make_unique<MeshMaker>(settings_.max_feature_angle));
   round_ = std::make_shared<MeshRound>(map_, meshes_, keys, seq_);
@@ -185,7 +233,7 @@ void Publisher::publish(Beat beat) {
 }
 
 void Publisher::publish_to(Show& show, Beat beat) {
-  if (!show.ready) return;
+  if (!show.ready || !shown_is_durable()) return;
   const bool due = beat == Beat::due && show.subscription.behind(seq_);
   if (due || show.subscription.waiting()) {
     if (Parcel parcel = show.subscription.compose(state(), beat); !parcel.empty()) {
@@ -203,7 +251,10 @@ void Publisher::publish_soon() {
   publish_scheduled_ = true;
   later_(std::chrono::milliseconds{0}, [this] {
     publish_scheduled_ = false;
-    take_up_a_view();
+    if (shown_is_durable()) {
+      take_up_a_view();
+      if (!lookers_.empty()) publish_soon();
+    }
     if (held())
       publish(Beat::wait);
     else
@@ -216,6 +267,7 @@ void Publisher::schedule_beat() {
   beat_scheduled_ = true;
   later_(kBeat, [this] {
     beat_scheduled_ = false;
+    beat_waits_ = !shown_is_durable();
     publish(Beat::due);
   });
 }

@@ -11,12 +11,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "protocol/messages.hpp"
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
+#include "server/journal/chunk_ages.hpp"
 #include "server/room/mesh_cache.hpp"
 #include "server/room/mesh_maker.hpp"
 #include "server/room/mesh_round.hpp"
@@ -38,6 +40,10 @@ inline constexpr std::chrono::milliseconds kLongestRest{50};
 /// thread pool, while the map goes on. So what is shown is behind the map by a round or a rest, is
 /// consistent at any time, and no round is ever made in vain.
 ///
+/// Nothing is delivered before the seq that is shown is durable, and nothing newer is taken in
+/// before that was delivered: meshes are made while a commit is under way, and every commit brings
+/// everybody further. When edits are taken back, so are the meshes that nobody was sent.
+///
 /// The more viewers there are, the more edits they are shown at a time: after something was shown,
 /// what is new rests for kRestPerViewer for each of them, so that a crowd costs a part of a core
 /// and not all of it. Few viewers are shown every turn, and what comes after a rest at once.
@@ -45,12 +51,15 @@ inline constexpr std::chrono::milliseconds kLongestRest{50};
 /// On the strand of the room whose part it is.
 class Publisher {
  public:
-  /// What is shown. The map is empty and outlives the publisher, has these settings, and is changed
-  /// between calls only.
+  /// What is shown. The map outlives the publisher, has these settings, and is changed between
+  /// calls only. It begins as of `seq`, which is durable; `ages` are of its chunks and those that
+  /// are gone.
   struct Subject {
     const voxel::Map& map;
     const protocol::MapSettings& settings;
     std::uint64_t epoch;
+    std::uint64_t seq;
+    std::span<const journal::ChunkAge> ages;
     std::shared_ptr<Meters> meters;
   };
   /// Runs a task on that strand after a delay, or not at all when the room is gone by then.
@@ -72,11 +81,15 @@ class Publisher {
   /// The viewer takes the next parcel: from within the call, if there is one.
   void ready(ViewerId id);
 
-  /// The map was changed so by its latest edit.
-  void changed(const voxel::Change& change);
-  /// Every change up to `seq` was told: delivers what the viewers who are ready are to be sent, now
-  /// or when the round that runs is over, or the rest.
-  void show(std::uint64_t seq);
+  /// The map was changed so by its latest event, `seq`.
+  void changed(const voxel::Change& change, std::uint64_t seq);
+  /// All events up to `seq` are durable: delivers what has waited for that.
+  void durable(std::uint64_t seq);
+  /// Every change was told: delivers what the viewers who are ready are to be sent, now or when the
+  /// round that runs is over, or the rest, or what was shown before is durable.
+  void show();
+  /// The map is again what it was after the last durable event.
+  void taken_back();
 
   /// Brings up to `budget` chunks' meshes up to date with the map, or a few more; true when all
   /// are. May deliver parcels.
@@ -98,18 +111,21 @@ class Publisher {
     bool ready = true;                     // to take a parcel
   };
 
-  void take_up_a_view();
+  [[nodiscard]] bool shown_is_durable() const { return seq_ <= durable_; }
+  std::size_t take_up_a_view();
+  void take_up_views();
   void go_on();
   void show_news();
-  /// No mesh can be made now of what is shown: a round makes them, or the map has gone on and
-  /// rests.
-  [[nodiscard]] bool held() const { return round_ || (resting_ && latest_ != seq_); }
+  /// No mesh can be made now of what is shown: a round makes them, or the map has gone on and what
+  /// is new waits.
+  [[nodiscard]] bool held() const { return round_ || latest_ != seq_; }
   void rest();
   void take_in_pending();
   [[nodiscard]] RoundPlan plan_for_all();
   void make(const std::vector<voxel::ChunkKey>& keys);
   void make_here(std::span<const voxel::ChunkKey> keys);
   void start_round(std::span<const voxel::ChunkKey> keys);
+  void remember(std::span<const voxel::ChunkKey> keys);
   void end_round();
   void publish(Beat beat);
   void publish_to(Show& show, Beat beat);
@@ -124,10 +140,15 @@ class Publisher {
   const Later later_;
   const std::function<Workplace()> workplace_;
 
+  using Before = std::unordered_map<voxel::ChunkKey, Forerunner, voxel::ChunkKeyHash>;
+
   MeshCache meshes_;          // as of seq_,
-  std::uint64_t seq_ = 0;     // which is shown, as far as meshes are made
-  std::uint64_t latest_ = 0;  // the map's: ahead of seq_ during a round or a rest
-  std::unordered_set<voxel::ChunkKey, voxel::ChunkKeyHash> pending_;  // different in between
+  std::uint64_t seq_ = 0;     // which is shown, as far as meshes are made and it is durable
+  std::uint64_t latest_ = 0;  // the map's: ahead of seq_ while what is new waits
+  std::uint64_t durable_ = 0;
+  std::uint64_t delivered_ = 0;  // while seq_ is not durable: the one before it, which is;
+  Before before_;                // and of all that is different, made or stale since, what was then
+  std::unordered_set<voxel::ChunkKey, voxel::ChunkKeyHash> pending_;  // not taken in yet
   std::shared_ptr<MeshRound> round_;                                  // that runs
   MeshMaker maker_;                                                   // the strand's
   MeshRound::Makers makers_;                                          // for rounds, when none runs
@@ -135,7 +156,8 @@ class Publisher {
   std::deque<ViewerId> lookers_;  // whose views are wanted; one is taken up at a time
   ViewerId last_loader_ = 0;      // whose first load was the last in a plan
   bool publish_scheduled_ = false, beat_scheduled_ = false;
-  bool resting_ = false;  // what is new is not taken in yet
+  bool beat_waits_ = false;  // for what is shown to be durable
+  bool resting_ = false;     // what is new is not taken in yet
 };
 
 }  // namespace earthwork::room

@@ -1,5 +1,6 @@
 #include "server/room/room.hpp"
 
+#include <cassert>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,14 @@ constexpr int kTurnEdits = 512;
 constexpr std::size_t kTurnDirtyChunks = 1024;
 constexpr std::uint64_t kTurnRows = 262'144;
 
+// After a journal turned out to be another than it should be, its map is opened anew.
+constexpr std::uint32_t kReopenMs = 1000;
+
+/// Whether what could not be stored now may be stored later.
+bool may_pass(Code code) {
+  return code == Code::disk_full || code == Code::read_only || code == Code::storage_failed;
+}
+
 /// The stamp that a click at the cursor would be.
 protocol::Edit stamp_at(const protocol::MapPoint& at, const protocol::Brush& brush) {
   return {.layer = brush.layer,
@@ -30,53 +39,66 @@ protocol::Edit stamp_at(const protocol::MapPoint& at, const protocol::Brush& bru
 
 }  // namespace
 
-Room::Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch,
-           std::unique_ptr<Strand> strand, std::shared_ptr<Meters> meters)
+Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
+           std::shared_ptr<Meters> meters)
     : name_(std::move(name)),
-      settings_(std::move(settings)),
-      epoch_(epoch),
+      settings_(std::move(opening.identity.settings)),
+      epoch_(opening.identity.epoch),
       strand_(std::move(strand)),
       meters_(std::move(meters)),
-      map_(history::make_map(settings_)),
+      commits_(opening.commits),
+      clerk_(std::move(opening.clerk)),
+      map_(std::move(opening.restored.map)),
+      ledger_(*clerk_, {opening.restored.seq, opening.restored.hash, map_.chunk_count()}, meters_),
       publisher_(
-          {map_, settings_, epoch_, meters_},
+          {map_, settings_, epoch_, opening.restored.seq, opening.restored.ages, meters_},
           [this](std::chrono::milliseconds delay, std::function<void()> task) {
             run_later(delay, std::move(task));
           },
           [this] { return workplace(); }),
+      events_(
+          *clerk_, [this] { return workplace(); }, opening.restored.seq),
       herald_(events_, *strand_,
               [this](std::chrono::milliseconds delay, std::function<void()> task) {
                 run_later(delay, std::move(task));
               }),
-      slicer_(map_) {}
+      authors_(opening.restored.authors),
+      keyframer_({map_, [this](std::uint64_t author) { return authors_.state(author); }, *clerk_,
+                  [this] { return workplace(); }, *strand_},
+                 opening.restored),
+      slicer_(map_) {
+  used();
+}
+
+Room::~Room() = default;
 
 protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, protocol::User user) {
   if (closed_) return tl::unexpected<protocol::Failure>(*closed_);
+  used();
   const ViewerId id = ++last_viewer_;
   auto guarded = std::make_shared<GuardedViewer>(std::move(viewer), [this] { schedule_turn(); });
   publisher_.enter(id, *guarded);
   herald_.enter(id, *guarded, std::move(user));
-  seats_[id].viewer = std::move(guarded);
+  seats_.enter(id, std::move(guarded));
 
   protocol::Joined joined{.map = name_,
                           .settings = settings_,
                           .epoch = protocol::hex(epoch_),
-                          .seq = seq(),
+                          .seq = ledger_.durable().seq,
                           .users = herald_.users_for(id),
                           .id = {}};
   return Entrance{id, std::move(joined)};
 }
 
 void Room::leave(ViewerId viewer) {
+  used();
   publisher_.leave(viewer);
   herald_.leave(viewer);
-  seats_.erase(viewer);
+  seats_.leave(viewer);
 }
 
 void Room::leave_when_told(ViewerId viewer, std::function<void()> gone) {
-  const auto found = seats_.find(viewer);
-  if (found != seats_.end() && found->second.waiting > 0) {
-    found->second.gone = std::move(gone);
+  if (seats_.leaves_when_told(viewer, gone)) {
     publisher_.leave(viewer);
     herald_.leave(viewer);
     return;
@@ -106,26 +128,29 @@ protocol::Result<void> Room::point(ViewerId viewer, const protocol::Cursor& curs
 
 protocol::Result<void> Room::follow(ViewerId viewer, std::uint64_t from_seq) {
   if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "events: join a map first");
-  if (from_seq < 1 || from_seq > seq() + 1)
+  const std::uint64_t next = events_.last_seq() + 1;
+  if (from_seq < 1 || from_seq > next)
     return protocol::fail(Code::out_of_range,
                           "from_seq: " + std::to_string(from_seq) + " is not among 1 to " +
-                              std::to_string(seq() + 1) + ", the next event's",
+                              std::to_string(next) + ", the next event's",
                           "from_seq");
   herald_.follow(viewer, from_seq);
   return {};
 }
 
 protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
-  const auto found = seats_.find(viewer);
-  if (found == seats_.end()) return protocol::fail(Code::bad_state, "edit: join a map first");
+  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "edit: join a map first");
+  used();
   if (auto checked = protocol::check_edit(command.edit, settings_); !checked) return checked;
+  if (const protocol::Failure* trouble = ledger_.trouble(last_used_ms_))
+    return tl::unexpected<protocol::Failure>(*trouble);
   const std::uint64_t cost = rows_visited(command.edit, settings_);
-  if (!line_.push({viewer, std::move(command), cost, strand_->now_ms()}))
+  if (!line_.push({viewer, std::move(command), cost, last_used_ms_}))
     return protocol::fail(Code::too_large,
                           "path: edits of " + std::to_string(kMaxWaitingPoints) +
                               " points may wait in a map; send it again later",
                           "path");
-  ++found->second.waiting;
+  seats_.owe_answer(viewer);
   schedule_turn();
   return {};
 }
@@ -150,16 +175,18 @@ void Room::run_later(std::chrono::milliseconds delay, std::function<void()> task
     strand_->post_after(delay, std::move(guarded));
 }
 
+// What comes back from another thread shares the strand, and holds the room on it only: the last
+// to let go of a room must not be its own clerk.
 Workplace Room::workplace() {
-  const auto weak = weak_from_this();
   return {.aside =
-              [weak](Strand::Task task) {
-                if (const auto self = weak.lock()) self->strand_->post_aside(std::move(task));
+              [strand = strand_, weak = weak_from_this()](Strand::Task task) {
+                if (!weak.expired()) strand->post_aside(std::move(task));
               },
           .back =
-              [weak](Strand::Task task) {
-                if (const auto self = weak.lock())
-                  self->strand_->post([self, task = std::move(task)] { self->run(task); });
+              [strand = strand_, weak = weak_from_this()](Strand::Task task) {
+                strand->post([weak, task = std::move(task)] {
+                  if (const auto self = weak.lock()) self->run(task);
+                });
               }};
 }
 
@@ -174,14 +201,10 @@ void Room::turn() {
   turn_chunks_ = 0, turn_rows_ = 0;
   if (slicer_.through()) commit_sliced();
   for (int n = 0; n < kTurnEdits && turn_chunks_ < kTurnDirtyChunks && turn_rows_ < kTurnRows &&
-                  line_.has_next();
+                  line_.has_next() && !ledger_.full();
        ++n)
     take_next();
-  acknowledge();
-  let_go();
-  herald_.tell_events();
-  publisher_.show(seq());
-  if (line_.has_next()) schedule_turn();
+  go_on();
 }
 
 // What cannot be applied now keeps its place in line, and its author's later ones wait behind it.
@@ -200,16 +223,23 @@ void Room::take_next() {
   }
   Line::Waiting taken = line_.pop();
   turn_rows_ += taken.cost;
-  answer(taken.viewer, decide(taken.command));
+  Reply reply = decide(taken.command);
+  // A refusal may rest on what is not durable yet: on a larger id of its author.
+  const auto* applied = std::get_if<protocol::Applied>(&reply);
+  const std::uint64_t seq = applied ? applied->seq : ledger_.accepted_seq();
+  seats_.answer(taken.viewer, std::move(reply), seq);
 }
 
 void Room::schedule_slice() {
+  if (slice_scheduled_) return;
+  slice_scheduled_ = true;
   strand_->post([self = shared_from_this()] { self->run([&] { self->slice(); }); });
 }
 
 // One slice a task: turns, and whatever else the strand has to do, come in between.
 void Room::slice() {
-  if (!slicer_.busy()) return;  // closed meanwhile
+  slice_scheduled_ = false;
+  if (!slicer_.busy()) return;  // closed, or taken back meanwhile
   slicer_.advance();
   if (slicer_.through())
     schedule_turn();
@@ -220,15 +250,10 @@ void Room::slice() {
 void Room::commit_sliced() {
   Line::Waiting done = line_.take(slicer_.author());
   line_.recall();
+  if (commits_ == Commits::later) before_.keep(map_, slicer_.changed());
   accept(done.command, slicer_.commit());
-  answer(done.viewer, protocol::Applied{.id = done.command.id, .seq = seq()});
-}
-
-void Room::answer(ViewerId viewer, Reply reply) {
-  const auto seat = seats_.find(viewer);
-  if (seat == seats_.end()) return;
-  --seat->second.waiting;
-  seat->second.told.push_back(std::move(reply));
+  const std::uint64_t seq = ledger_.accepted_seq();
+  seats_.answer(done.viewer, protocol::Applied{.id = done.command.id, .seq = seq}, seq);
 }
 
 Reply Room::decide(Command& command) {
@@ -241,8 +266,10 @@ Reply Room::decide(Command& command) {
   const auto [standing, seq_before] = authors_.judge(command.author, command.id);
   switch (standing) {
     case Authors::Standing::fresh:
+      if (commits_ == Commits::later)
+        before_.keep(map_, static_cast<int>(command.edit.layer), history::stencils(command.edit));
       accept(command, history::apply(map_, command.edit));
-      return protocol::Applied{.id = command.id, .seq = seq()};
+      return protocol::Applied{.id = command.id, .seq = ledger_.accepted_seq()};
     case Authors::Standing::repeated:
       ++meters_->repeated;
       return protocol::Applied{.id = command.id, .seq = seq_before};
@@ -258,40 +285,126 @@ Reply Room::decide(Command& command) {
 
 // The map has the edit, and nothing after it.
 void Room::accept(Command& command, const voxel::Change& change) {
-  publisher_.changed(change);
+  history::Event event{.seq = ledger_.accepted_seq() + 1,
+                       .time_ms = strand_->now_ms(),
+                       .author = command.author,
+                       .id = command.id,
+                       .edit = std::move(command.edit),
+                       .hash = map_.hash()};
+  publisher_.changed(change, event.seq);
   turn_chunks_ += change.dirty.size();
-  events_.push_back({.seq = seq() + 1,
-                     .time_ms = strand_->now_ms(),
-                     .author = command.author,
-                     .id = command.id,
-                     .edit = std::move(command.edit),
-                     .hash = map_.hash()});
-  authors_.applied(command.author, command.id, seq());
-  ++meters_->edits;
+  authors_.applied(event.author, event.id, event.seq);
+  if (commits_ == Commits::later) keyframer_.accepted(event, change.changed);
+  ledger_.accept(std::move(event));
 }
 
-void Room::acknowledge() {
-  for (auto& [id, seat] : seats_)
-    if (!seat.told.empty()) seat.viewer->answered(std::exchange(seat.told, {}));
+// After every turn, and after every commit: what has gathered goes on its way, and what is durable
+// to those who wait for it.
+void Room::go_on() {
+  hand_over();
+  if (closed_) return;
+  tell();
+  publisher_.durable(ledger_.durable().seq);
+  publisher_.show();
+  ledger_.tell_waiters();
+  if (line_.has_next() && !ledger_.full()) schedule_turn();
+}
+
+void Room::hand_over() {
+  if (!ledger_.can_hand_over()) return;
+  if (commits_ == Commits::later) {
+    keyframer_.handed_over();
+    before_.hand_over();
+  }
+  const bool ended =
+      ledger_.hand_over(map_.chunk_count(), [back = workplace().back, weak = weak_from_this()] {
+        back([weak] {
+          if (const auto self = weak.lock()) self->committed();
+        });
+      });
+  if (ended) settle();
+}
+
+void Room::committed() {
+  if (closed_) return;
+  settle();
+  if (!closed_) go_on();
+}
+
+void Room::settle() {
+  const auto events = ledger_.settle(strand_->now_ms());
+  if (!events) return take_back(events.error());
+  authors_.keep(ledger_.durable().seq);
+  events_.add(*events);
+  meters_->edits += events->size();
+  if (commits_ == Commits::at_once) return;
+  before_.forget_handed_over();
+  keyframer_.durable();
+}
+
+// Whoever waits for a number, waits for one above those that are gone: it has none either.
+void Room::take_back(const protocol::Failure& failure) {
+  if (commits_ == Commits::at_once || !may_pass(failure.code))
+    return close({.failure = failure, .retry_after_ms = kReopenMs});
+  before_.take_back(map_);
+  assert(map_.hash() == ledger_.durable().hash);
+  authors_.take_back();
+  keyframer_.taken_back();
+  publisher_.taken_back();
+  figures_.reset();
+
+  const std::uint64_t durable_seq = ledger_.durable().seq;
+  seats_.refuse_answers(durable_seq, failure);
+  slicer_.clear();
+  line_.recall();
+  while (line_.has_next()) {
+    const Line::Waiting refused = line_.pop();
+    seats_.answer(refused.viewer, protocol::Rejected{refused.command.id, failure}, durable_seq);
+  }
+}
+
+void Room::tell() {
+  seats_.tell_answers(ledger_.durable().seq);
+  let_go();
+  herald_.tell_events();
 }
 
 void Room::let_go() {
-  for (auto seat = seats_.begin(); seat != seats_.end();) {
-    const ViewerId id = seat->first;
-    const bool leaves = seat->second.gone && seat->second.waiting == 0;
-    if (!leaves && !seat->second.viewer->broken()) {
-      ++seat;
-      continue;
-    }
-    const Seat left = std::move(seat->second);
-    ++seat;
-    leave(id);
+  for (const Seats::Leaver& left : seats_.take_leavers()) {
+    leave(left.id);
     if (left.gone) left.viewer->guard(left.gone);
   }
 }
 
+void Room::once_durable(std::function<void(bool)> then) {
+  used();
+  if (closed_) return then(ledger_.idle());
+  ledger_.once_durable(std::move(then));
+}
+
+bool Room::retire(std::function<void()> closed) {
+  if (closed_ || !seats_.empty() || !line_.empty() || !ledger_.idle()) return false;
+  closed_ = {Code::unavailable, "the map is put away", "map"};
+  publisher_.leave_all();
+  keyframer_.finish([self = shared_from_this(), closed = std::move(closed)] {
+    // The end of a clerk may take a while.
+    self->strand_->post_aside([clerk = std::shared_ptr(std::move(self->clerk_)), closed]() mutable {
+      clerk.reset();
+      closed();
+    });
+  });
+  return true;
+}
+
 RoomInfo Room::info() {
-  return {.seq = seq(), .hash = map_.hash(), .chunks = map_.chunk_count(), .users = seats_.size()};
+  used();
+  const auto [seq, hash, chunks] = ledger_.durable();
+  return {.seq = seq, .hash = hash, .chunks = chunks, .users = seats_.size()};
+}
+
+bool Room::refresh_meshes(std::size_t budget) {
+  used();
+  return publisher_.refresh(budget);
 }
 
 RoomLoad Room::load() const {
@@ -303,8 +416,9 @@ RoomLoad Room::load() const {
 }
 
 RoomFigures Room::figures() {
-  if (!figures_ || figures_->seq != seq())
-    figures_ = RoomFigures{.seq = seq(),
+  const std::uint64_t seq = ledger_.accepted_seq();
+  if (!figures_ || figures_->seq != seq)
+    figures_ = RoomFigures{.seq = seq,
                            .hash = map_.hash(),
                            .chunks = map_.chunk_count(),
                            .voxel_bytes = map_.memory_bytes(),
@@ -314,10 +428,13 @@ RoomFigures Room::figures() {
 }
 
 MeshSnapshot Room::meshes() const {
-  return {.seq = seq(), .mesh_hash = publisher_.totals().hash, .records = publisher_.records()};
+  return {.seq = ledger_.accepted_seq(),
+          .mesh_hash = publisher_.totals().hash,
+          .records = publisher_.records()};
 }
 
-protocol::Result<StatesPicture> Room::states(std::uint64_t layer) const {
+protocol::Result<StatesPicture> Room::states(std::uint64_t layer) {
+  used();
   return draw_states(map_, layer);
 }
 
@@ -327,7 +444,8 @@ void Room::close(const protocol::Bye& bye) {
   slicer_.clear();
   publisher_.leave_all();
   herald_.leave_all();
-  for (auto& [id, seat] : std::exchange(seats_, {})) seat.viewer->end(bye);
+  ledger_.give_up();
+  seats_.end(bye);
 }
 
 }  // namespace earthwork::room

@@ -4,23 +4,25 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "protocol/messages.hpp"
 #include "protocol/settings.hpp"
-#include "server/history/event.hpp"
 #include "server/mesh/figures.hpp"
 #include "server/room/authors.hpp"
-#include "server/room/guarded_viewer.hpp"
+#include "server/room/before_images.hpp"
 #include "server/room/herald.hpp"
+#include "server/room/keyframer.hpp"
+#include "server/room/ledger.hpp"
 #include "server/room/line.hpp"
 #include "server/room/meters.hpp"
+#include "server/room/opening.hpp"
+#include "server/room/past_events.hpp"
 #include "server/room/publisher.hpp"
+#include "server/room/seats.hpp"
 #include "server/room/slicer.hpp"
 #include "server/room/states_picture.hpp"
 #include "server/room/strand.hpp"
@@ -29,6 +31,7 @@
 
 namespace earthwork::room {
 
+/// What is durable.
 struct RoomInfo {
   std::uint64_t seq = 0, hash = 0;
   std::size_t chunks = 0;  ///< Kept: with a filled voxel or a crossing.
@@ -59,16 +62,27 @@ struct RoomLoad {
 };
 
 /// name, settings, epoch and strand: any thread. Everything else: on the strand only, which also
-/// calls the viewers. Held by shared_ptr; a task on its strand keeps it alive.
+/// calls the viewers. Held by shared_ptr; a task on its strand keeps it alive. Its end waits until
+/// the clerk has done what it was given.
+///
+/// An edit is applied in its turn, and is durable when the batch that it goes into the journal with
+/// is. Only then its author is told so, and the others are shown it. When the batch cannot be
+/// stored, all that is not durable is taken back; those edits and all in line are refused with the
+/// journal's code, and whoever comes within kPauseMs too. Viewers stay. Should the journal turn out
+/// to be what it should not be (bad_state, damaged), the room closes: whoever comes again finds
+/// what was stored.
 ///
 /// When its own work throws, out of memory say, map and events may no longer agree: it closes with
 /// `internal`, and the exception goes on to the strand. A viewer that throws is told `end` and has
 /// left; nobody else notices.
 class Room : public std::enable_shared_from_this<Room> {
  public:
-  /// An empty map. `settings` is valid. What it does is counted in `meters`.
-  Room(std::string name, protocol::MapSettings settings, std::uint64_t epoch,
-       std::unique_ptr<Strand> strand, std::shared_ptr<Meters> meters);
+  /// What it does is counted in `meters`.
+  Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
+       std::shared_ptr<Meters> meters);
+  ~Room();
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const protocol::MapSettings& settings() const { return settings_; }
@@ -84,9 +98,9 @@ class Room : public std::enable_shared_from_this<Room> {
                                                 protocol::User user);
   /// After it the viewer is not called again; its edits in line are applied all the same.
   void leave(ViewerId viewer);
-  /// Leaves once the viewer was told what became of all its edits in line, and then calls `gone`:
-  /// within the call when none waits. It is shown and told nothing else meanwhile, and is gone for
-  /// the others. Should the room close first, it is told `end` in place of `gone`.
+  /// Leaves once the viewer was told what became of all its edits, and then calls `gone`: within
+  /// the call when it was. It is shown and told nothing else meanwhile, and is gone for the others.
+  /// Should the room close first, it is told `end` in place of `gone`.
   void leave_when_told(ViewerId viewer, std::function<void()> gone);
   /// Changes what the viewer is shown; parcels follow later, never from within the call. Fails
   /// with too_large for more than kMaxViewChunks.
@@ -101,40 +115,48 @@ class Room : public std::enable_shared_from_this<Room> {
   /// counts; a cursor that is not said again for kCursorMs is hidden.
   [[nodiscard]] protocol::Result<void> point(ViewerId viewer, const protocol::Cursor& cursor);
   /// Tells the viewer all events from `from_seq` on, and those to come. Fails with out_of_range
-  /// beyond the next seq. Asked again, it starts anew from there.
+  /// beyond the next seq that will be durable. Asked again, it starts anew from there.
   [[nodiscard]] protocol::Result<void> follow(ViewerId viewer, std::uint64_t from_seq);
 
   using Command = room::Command;
-  /// Puts an edit in line. Fails when `check_edit` does, and with too_large when kMaxWaitingPoints
-  /// would be exceeded; then it has no number. Otherwise the viewer is told later, never from
-  /// within the call: its number, the one that it has already when the author's id was applied
-  /// before, or that it has none, by id_out_of_order or id_too_old. An author's edits come to their
+  /// Puts an edit in line. Fails when `check_edit` does, with too_large when kMaxWaitingPoints
+  /// would be exceeded, and with what the journal failed with just now; then it has no number.
+  /// Otherwise the viewer is told later, never from within the call: its number, the one that it
+  /// has already when the author's id was applied before, or that it has none, by id_out_of_order,
+  /// id_too_old or what the journal fails with. An author's edits come to their
   /// turn in the order of submission, whichever viewers they come from. A large one takes many
   /// tasks; meanwhile others are applied and numbered before it, unless they come near its place.
   [[nodiscard]] protocol::Result<void> submit(ViewerId viewer, Command command);
 
+  /// Calls `then` on the strand when all that is applied now is durable: within the call when it is
+  /// so already. With false when some of it was taken back, or the room has closed first.
+  void once_durable(std::function<void(bool kept)> then);
+  /// When nobody is inside, no edit waits and nothing is in flight: closes the room, which then
+  /// refuses with `unavailable`, makes a last keyframe, lets go of the clerk, and then calls
+  /// `closed`, on any thread. False, and nothing happens, when it is in use or closed.
+  [[nodiscard]] bool retire(std::function<void()> closed);
+  /// Of the last join, leave, edit or question.
+  [[nodiscard]] std::int64_t last_used_ms() const { return last_used_ms_; }
+  /// Why nobody can join any more; nothing as long as it is open.
+  [[nodiscard]] const std::optional<protocol::Failure>& closed() const { return closed_; }
+
   [[nodiscard]] RoomInfo info();
   [[nodiscard]] RoomLoad load() const;
-  /// Brings up to `budget` chunks' meshes up to date; true when all are.
-  [[nodiscard]] bool refresh_meshes(std::size_t budget) { return publisher_.refresh(budget); }
-  /// After `refresh_meshes` gave true in the same task.
+  /// Brings up to `budget` chunks' meshes up to date with all that is applied; true when all are.
+  /// Whoever needs several calls waits with `once_durable` before each, so that viewers are not
+  /// kept waiting for what is newer and newer.
+  [[nodiscard]] bool refresh_meshes(std::size_t budget);
+  /// After `refresh_meshes` gave true in the same task. These three are of what is applied: they
+  /// are told to nobody before `once_durable`, asked in the same task, says that it was kept.
   [[nodiscard]] RoomFigures figures();
   [[nodiscard]] MeshSnapshot meshes() const;
-  [[nodiscard]] protocol::Result<StatesPicture> states(std::uint64_t layer) const;
-  /// All that was accepted, in order. Valid until the next task.
-  [[nodiscard]] std::span<const history::Event> events() const { return events_; }
+  [[nodiscard]] protocol::Result<StatesPicture> states(std::uint64_t layer);
 
-  /// Says `bye` to all viewers and lets nobody in again.
+  /// Says `bye` to all viewers and lets nobody in again. What is on its way into the journal gets
+  /// there; what is not, does not.
   void close(const protocol::Bye& bye);
 
  private:
-  struct Seat {
-    std::shared_ptr<GuardedViewer> viewer;
-    std::size_t waiting = 0;     // edits in line, also aside
-    std::vector<Reply> told;     // of this turn
-    std::function<void()> gone;  // set: it leaves when none waits
-  };
-
   void run(const std::function<void()>& task);
   void run_later(std::chrono::milliseconds delay, std::function<void()> task);
   [[nodiscard]] Workplace workplace();
@@ -146,30 +168,40 @@ class Room : public std::enable_shared_from_this<Room> {
   void schedule_slice();
   void slice();
   void commit_sliced();
-  void answer(ViewerId viewer, Reply reply);
-  void acknowledge();
+  void go_on();
+  void hand_over();
+  void committed();
+  void settle();
+  void take_back(const protocol::Failure& failure);
+  void tell();
   void let_go();
-  [[nodiscard]] std::uint64_t seq() const { return events_.size(); }
+  void used() { last_used_ms_ = strand_->now_ms(); }
 
   const std::string name_;
   const protocol::MapSettings settings_;
   const std::uint64_t epoch_;
-  const std::unique_ptr<Strand> strand_;
+  const std::shared_ptr<Strand> strand_;  // shared with what the clerk brings back
   const std::shared_ptr<Meters> meters_;
+  const Commits commits_;
+  std::unique_ptr<journal::Clerk> clerk_;
 
   voxel::Map map_;
+  BeforeImages before_;  // of what is not durable, unless commits are at once
+  Ledger ledger_;
   Publisher publisher_;
-  std::vector<history::Event> events_;  // event n at n - 1
+  PastEvents events_;
   Herald herald_;
   Authors authors_;
+  Keyframer keyframer_;
   Line line_;
   Slicer slicer_;                // what it prepares is aside in the line
   std::size_t turn_chunks_ = 0;  // to be meshed again, of this turn, a chunk once an edit
   std::uint64_t turn_rows_ = 0;  // that this turn looked at, a row once a stamp
-  std::map<ViewerId, Seat> seats_;
+  Seats seats_;
   ViewerId last_viewer_ = 0;
   std::optional<RoomFigures> figures_;  // the last ones asked for
-  bool turn_scheduled_ = false;
+  std::int64_t last_used_ms_ = 0;
+  bool turn_scheduled_ = false, slice_scheduled_ = false;
   std::optional<protocol::Failure> closed_;  // why
 };
 

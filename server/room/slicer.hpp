@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "protocol/edit.hpp"
 #include "protocol/settings.hpp"
@@ -47,6 +48,10 @@ class Slicer {
   void start(const Command& command);
   /// The next slice; when busy.
   void advance();
+  /// The chunks that `commit` puts into the map. When through.
+  [[nodiscard]] std::span<const voxel::ChunkKey> changed() const {
+    return prepared_->edit.changed();
+  }
   /// Puts the edit into the map, and gives what voxel::Map::apply would have given now. When
   /// through; it is not busy afterwards.
   [[nodiscard]] voxel::Change commit();

@@ -29,6 +29,9 @@ class SlicedEdit {
   /// stamp at least. True when all are through.
   [[nodiscard]] bool advance(std::uint64_t chunk_visits);
 
+  /// The chunks that `commit` replaces, after `advance` gave true. Valid as long as this is.
+  [[nodiscard]] std::span<const ChunkKey> changed() const { return change_.changed; }
+
   /// Puts all of it into the map that it was made for, once, after `advance` gave true. What it
   /// gives is what Map::apply would have given, and is valid as long as this is.
   const Change& commit(Map& map);
