@@ -1,0 +1,131 @@
+#include "server/app/map_report.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "protocol/chunk_record.hpp"
+#include "server/app/answer.hpp"
+#include "server/app/stored_map.hpp"
+#include "server/app/whole_mesh.hpp"
+#include "server/journal/audit.hpp"
+#include "server/journal/map_file.hpp"
+#include "server/net/map_figures.hpp"
+
+namespace earthwork::app {
+namespace {
+
+using journal::DataDirectory;
+using nlohmann::ordered_json;
+using protocol::Code;
+using protocol::hex;
+
+ordered_json listed(const DataDirectory& folder, const std::string& name) {
+  const auto path = folder.map_file(name);
+  const auto opened = journal::open_map_file(path, journal::Access::read);
+  ordered_json line{{"name", name}, {"seq", nullptr}, {"bytes", file_bytes(path)}};
+  if (opened) {
+    line["seq"] = (*opened)->last_seq();
+    line["state"] = "sound";
+  } else {
+    line["state"] = protocol::name(opened.error().code);
+    line["detail"] = opened.error().detail;
+  }
+  return line;
+}
+
+ordered_json figures_of(const journal::Restored& restored, const protocol::MapSettings& settings) {
+  const room::MeshCache meshes = mesh_whole(restored.map, settings, restored.seq);
+  return net::write_figures(
+      {.seq = restored.seq,
+       .hash = restored.hash,
+       .chunks = restored.map.chunk_count(),
+       .voxel_bytes = restored.map.memory_bytes(),
+       .geometry = mesh::count_figures(restored.map, settings.max_feature_angle),
+       .meshes = meshes.totals()},
+      settings.chunk_resolution);
+}
+
+ordered_json described(const StoredMap& stored, std::uint64_t events,
+                       const std::vector<journal::Keyframe>& keyframes) {
+  const journal::Identity& identity = stored.journal->identity();
+  const std::uint64_t bytes = file_bytes(stored.path);
+  ordered_json seqs = ordered_json::array();
+  for (const journal::Keyframe& keyframe : keyframes) seqs.push_back(keyframe.seq);
+  return {{"name", stored.name},
+          {"settings", protocol::write_settings(identity.settings)},
+          {"epoch", hex(identity.epoch)},
+          {"created_ms", identity.created_ms},
+          {"events", events},
+          {"file_bytes", bytes},
+          {"bytes_per_event",
+           events > 0 ? static_cast<double>(bytes) / static_cast<double>(events) : 0.0},
+          {"keyframes", std::move(seqs)}};
+}
+
+/// Says on stderr what of a damaged map can still be had.
+void tell_what_is_left(const std::string& name, const journal::Audit& audit) {
+  for (const protocol::Failure& finding : audit.findings) warn("damaged: " + finding.detail);
+  warn("the log is good up to seq " + std::to_string(audit.events) + ": map export " + name +
+       " OUT --seq " + std::to_string(audit.events) + " still gives that");
+}
+
+int answer_audit(const std::string& name, const journal::Audit& audit) {
+  ordered_json findings = ordered_json::array();
+  for (const protocol::Failure& finding : audit.findings) findings.push_back(finding.detail);
+  const int answered = answer({{"name", name},
+                               {"events", audit.events},
+                               {"hash", hex(audit.hash)},
+                               {"keyframes", audit.keyframes},
+                               {"sound", audit.sound()},
+                               {"findings", std::move(findings)}});
+  return audit.sound() ? answered : kFailed;
+}
+
+}  // namespace
+
+int list_maps(const MapFlags& flags) {
+  const auto folder = DataDirectory::open(flags.data, DataDirectory::Missing::refuse);
+  if (!folder) return refuse(folder.error());
+  const auto names = (*folder)->map_names();
+  if (!names) return refuse(names.error());
+  for (const std::string& name : *names)
+    if (const int answered = answer(listed(**folder, name)); answered != kDone) return answered;
+  return kDone;
+}
+
+int show_map(const MapFlags& flags) {
+  const auto stored = open_stored_map(flags);
+  if (!stored) return refuse(stored.error());
+  const auto restored = salvage(*stored->journal, {});
+  if (!restored) return refuse(restored.error());
+  const auto keyframes = stored->journal->keyframes();
+  ordered_json line =
+      described(*stored, restored->seq, keyframes.value_or(std::vector<journal::Keyframe>{}));
+  line.update(figures_of(*restored, stored->journal->identity().settings));
+  return answer(line);
+}
+
+int hash_map(const MapFlags& flags) {
+  const auto stored = open_stored_map(flags);
+  if (!stored) return refuse(stored.error());
+  const auto restored = salvage(*stored->journal, flags.seq);
+  if (!restored) return refuse(restored.error());
+  return answer({{"seq", restored->seq}, {"hash", hex(restored->hash)}});
+}
+
+int verify_map(const MapFlags& flags) {
+  const auto stored = open_stored_map(flags);
+  if (!stored && stored.error().code == Code::damaged) {
+    warn("damaged: " + stored.error().detail);
+    journal::Audit nothing;
+    nothing.findings.push_back(stored.error());
+    return answer_audit(flags.name, nothing);
+  }
+  if (!stored) return refuse(stored.error());
+  const auto audit = journal::audit(*stored->journal);
+  if (!audit) return refuse(audit.error());
+  if (!audit->sound()) tell_what_is_left(stored->name, *audit);
+  return answer_audit(stored->name, *audit);
+}
+
+}  // namespace earthwork::app

@@ -1,0 +1,25 @@
+#include "server/app/recorded_events.hpp"
+
+#include <utility>
+
+namespace earthwork::app {
+
+protocol::RecordedEvent to_recorded(const history::Event& event) {
+  return {.seq = event.seq,
+          .time_ms = event.time_ms,
+          .author = event.author,
+          .id = event.id,
+          .edit = event.edit,
+          .hash = event.hash};
+}
+
+history::Event from_recorded(protocol::RecordedEvent event) {
+  return {.seq = event.seq,
+          .time_ms = event.time_ms,
+          .author = event.author,
+          .id = event.id,
+          .edit = std::move(event.edit),
+          .hash = event.hash};
+}
+
+}  // namespace earthwork::app
