@@ -1,6 +1,7 @@
 #include "server/app/demo.hpp"
 
 #include <cmath>
+#include <future>
 #include <memory>
 #include <utility>
 
@@ -113,10 +114,16 @@ std::vector<Edit> demo_edits() {
 }
 
 protocol::Result<void> add_demo(room::Atlas& atlas) {
-  auto room = atlas.create("demo", demo_settings());
-  if (!room) return tl::unexpected<protocol::Failure>(std::move(room.error()));
-  (*room)->strand().post([live = *room] { paint(*live); });
-  return {};
+  auto promise = std::make_shared<std::promise<protocol::Result<void>>>();
+  atlas.create("demo", demo_settings(),
+               [promise](const protocol::Result<std::shared_ptr<room::Room>>& room) {
+                 if (!room) return promise->set_value(tl::unexpected(room.error()));
+                 (*room)->strand().post([live = *room] { paint(*live); });
+                 promise->set_value({});
+               });
+  auto made = promise->get_future().get();
+  if (!made && made.error().code == protocol::Code::map_exists) return {};
+  return made;
 }
 
 }  // namespace earthwork::app

@@ -13,7 +13,8 @@ namespace earthwork::app {
 /// In the order in which they are painted; all of them within every limit.
 [[nodiscard]] std::vector<protocol::Edit> demo_edits();
 
-/// Makes the map `demo` and paints it: done before anybody who joins later gets his answer.
+/// Makes the map `demo` and paints it, unless there is one: done before anybody who joins later
+/// gets his answer. Waits until it is made, so not on a strand. Fails as Atlas::create does.
 [[nodiscard]] protocol::Result<void> add_demo(room::Atlas& atlas);
 
 }  // namespace earthwork::app

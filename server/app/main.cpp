@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "server/app/map_command.hpp"
 #include "server/app/serve.hpp"
 
 namespace {
@@ -16,11 +17,18 @@ constexpr int kFailed = 1, kUsage = 2;
 void add_serve(CLI::App& app, earthwork::app::ServeFlags& flags) {
   CLI::App* serve = app.add_subcommand("serve", "Serve maps over HTTP and WebSocket");
   serve->set_version_flag("--version", kVersion);
-  serve->add_option("--data", flags.data, "Folder for what is kept")->capture_default_str();
+  serve->add_option("--data", flags.data, "Folder that the maps are kept in; made where missing")
+      ->capture_default_str();
   serve->add_option("--listen", flags.listen, "HOST:PORT; port 0 picks a free one")
       ->capture_default_str();
-  serve->add_flag("--memory", flags.memory, "Keep nothing on disk");
-  serve->add_flag("--demo", flags.demo, "Start with a map named demo that shows something");
+  serve->add_flag("--memory", flags.memory, "Keep nothing on disk: maps are gone at the end");
+  serve
+      ->add_option("--idle", flags.idle_seconds,
+                   "Seconds after which a map that nobody uses leaves memory, 1 to 86400")
+      ->check(CLI::Range(1, 86'400))
+      ->capture_default_str();
+  serve->add_flag("--demo", flags.demo,
+                  "Paint a map named demo that shows something, where there is none");
   serve->add_flag("--insecure-open", flags.insecure_open,
                   "Allow an address that other machines can reach: anybody there may paint");
   serve->add_option("--allow-host", flags.allow_hosts,
@@ -34,6 +42,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   earthwork::app::ServeFlags flags;
   add_serve(app, flags);
+  earthwork::app::MapCommand map;
+  earthwork::app::add_map_command(app, map, kVersion);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -42,7 +52,7 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "earthwork-server: %s (--help says more)\n", error.what());
     return kUsage;
   }
-  return earthwork::app::serve(flags);
+  return map.run ? map.run(map.flags) : earthwork::app::serve(flags);
 }
 
 }  // namespace

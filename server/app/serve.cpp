@@ -3,18 +3,21 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
 
 #include "server/app/demo.hpp"
+#include "server/journal/shelf.hpp"
 #include "server/net/server.hpp"
 
 namespace earthwork::app {
 namespace {
 
-constexpr int kDone = 0, kUsage = 2;
+constexpr int kDone = 0, kFailed = 1, kUsage = 2;
 
 int refuse(const std::string& why) {
   std::fprintf(stderr, "earthwork-server: %s\n", why.c_str());
@@ -46,12 +49,39 @@ void allow_many_connections() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// Promises the end within 5 s, even while an export that nobody waits for any more is being made.
+// What the end comes to as long as not all is stored.
+std::atomic<int> exit_code = kFailed;
+
+/// Promises the end within 5 s, even while an export that nobody waits for any more is being made,
+/// or while a disk does not answer.
 void end_in_any_case() {
   std::thread([] {
     std::this_thread::sleep_for(std::chrono::milliseconds(4500));
-    std::_Exit(kDone);
+    std::_Exit(exit_code);
   }).detach();
+}
+
+protocol::Result<std::shared_ptr<journal::Shelf>> take_shelf(const ServeFlags& flags) {
+  if (flags.memory) return journal::make_memory_shelf();
+  auto folder = journal::DataDirectory::open(flags.data, journal::DataDirectory::Missing::create);
+  if (!folder) return tl::unexpected<protocol::Failure>(std::move(folder.error()));
+  return journal::make_file_shelf(std::move(*folder));
+}
+
+void say_where_maps_are(const ServeFlags& flags) {
+  if (flags.memory)
+    spdlog::info("in memory: maps are gone when the server ends");
+  else
+    spdlog::info("maps are kept in {}", flags.data);
+}
+
+int end(net::Server& server) {
+  end_in_any_case();
+  if (server.stop())
+    exit_code = kDone;
+  else
+    spdlog::error("ended before all that was accepted was stored; nobody was told that it was");
+  return exit_code;
 }
 
 }  // namespace
@@ -66,23 +96,25 @@ int serve(const ServeFlags& flags) {
 
   const sigset_t signals = hold_end_signals();
   allow_many_connections();
-  auto server =
-      net::Server::start({.listen = *listen, .allowed_hosts = flags.allow_hosts, .limits = {}});
+  const auto shelf = take_shelf(flags);
+  if (!shelf) return refuse("--data: " + shelf.error().detail);
+  auto server = net::Server::start({.listen = *listen,
+                                    .allowed_hosts = flags.allow_hosts,
+                                    .limits = {},
+                                    .shelf = *shelf,
+                                    .idle = std::chrono::seconds(flags.idle_seconds)});
   if (!server) return refuse(server.error().detail);
   if (flags.demo) {
     if (const auto added = add_demo((*server)->atlas()); !added)
       return refuse("--demo: " + added.error().detail);
   }
 
-  spdlog::info("in memory: maps are gone when the server ends{}",
-               flags.memory ? "" : ", for this build has no journal yet and leaves --data alone");
+  say_where_maps_are(flags);
   std::printf("listening on %s\n", (*server)->url().c_str());
   std::fflush(stdout);
 
   wait_for_end(signals);
-  end_in_any_case();
-  (*server)->stop();
-  return kDone;
+  return end(**server);
 }
 
 }  // namespace earthwork::app

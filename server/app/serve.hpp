@@ -11,12 +11,14 @@ struct ServeFlags {
   std::string listen = "127.0.0.1:8080";
   std::vector<std::string> allow_hosts;
   bool memory = false;
+  int idle_seconds = 60;
   bool insecure_open = false;
   bool demo = false;
 };
 
-/// Serves until SIGTERM or SIGINT. Gives back the exit code: 0, or 2 for flags that do not do,
-/// with a line on stderr.
+/// Serves until SIGTERM or SIGINT. Gives back the exit code: 0; 1 when not all that was accepted
+/// could be stored at the end; 2 for flags that do not do, a folder that cannot be used or that
+/// another server uses. Each with a line on stderr.
 int serve(const ServeFlags& flags);
 
 }  // namespace earthwork::app

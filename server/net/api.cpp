@@ -11,6 +11,7 @@
 #include "protocol/json_fields.hpp"
 #include "protocol/json_text.hpp"
 #include "server/net/front_page.hpp"
+#include "server/net/map_question.hpp"
 #include "server/net/map_resource.hpp"
 #include "server/net/metrics.hpp"
 #include "server/net/survey.hpp"
@@ -70,8 +71,8 @@ std::optional<std::uint64_t> number(const Target& target, std::string_view key,
   return value;
 }
 
-HttpResponse no_number(const char* key) {
-  return problem({Code::bad_field, std::string(key) + ": a whole number is needed", key});
+tl::unexpected<protocol::Failure> no_number(const char* key) {
+  return protocol::fail(Code::bad_field, std::string(key) + ": a whole number is needed", key);
 }
 
 struct NewMap {
@@ -149,8 +150,11 @@ void Api::handle_maps(const HttpRequest& request, Respond respond) const {
 
 void Api::list_maps(const Respond& respond) const {
   ordered_json maps = ordered_json::array();
-  for (const auto& room : atlas_.list())
-    maps.push_back({{"name", room->name()}, {"epoch", protocol::hex(room->epoch())}});
+  for (const auto& [name, epoch] : atlas_.list()) {
+    ordered_json map{{"name", name}};
+    if (epoch) map["epoch"] = protocol::hex(*epoch);
+    maps.push_back(std::move(map));
+  }
   respond(json_response(200, {{"maps", std::move(maps)}}));
 }
 
@@ -166,44 +170,65 @@ void Api::create_map(const HttpRequest& request, Respond respond) const {
   if (!is_json(request.content_type)) return respond(not_json());
   const auto wanted = read_new_map(request.body);
   if (!wanted) return respond(problem(wanted.error()));
-  const auto room = atlas_.create(wanted->name, wanted->settings);
-  if (!room) {
-    const bool full = room.error().code == Code::too_large;
-    return respond(full ? problem(507, room.error()) : problem(room.error()));
-  }
-  describe_map(*room, 201, std::move(respond));
+  auto created = [&atlas = atlas_, name = wanted->name,
+                  respond](const protocol::Result<RoomPointer>& room) {
+    if (!room) {
+      const bool full = room.error().code == Code::too_large;
+      return respond(full ? problem(507, room.error()) : problem(room.error()));
+    }
+    const auto describe = [](const RoomPointer& there, Given give) {
+      describe_map(there, 201, std::move(give));
+    };
+    ask_map(atlas, name, describe, respond);
+  };
+  atlas_.create(wanted->name, wanted->settings, std::move(created));
+}
+
+void Api::delete_map(const HttpRequest& request, const std::string& name, Respond respond) const {
+  // A page of another site cannot send a DELETE unasked, with a body or without.
+  if (!request.body.empty() && !is_json(request.content_type)) return respond(not_json());
+  atlas_.erase(name, [respond = std::move(respond)](const protocol::Result<void>& erased) {
+    if (!erased) return respond(problem(erased.error()));
+    respond({.status = 204, .content_type = {}, .headers = {}, .body = {}});
+  });
 }
 
 void Api::handle_map(const HttpRequest& request, const Target& target, Respond respond) const {
   const std::string& name = target.segments[2];
   const std::string part = target.segments.size() == 4 ? target.segments[3] : "";
-  const auto room = atlas_.find(name);
-  const bool known =
-      part.empty() || part == "figures" || part == "states.png" || part == "export.glb";
-  if (!room || !known) return respond(not_found(request.target));
-
   if (part.empty()) {
     if (!check_method(request, {"GET", "DELETE"}, respond)) return;
-    if (request.method != "DELETE") return describe_map(room, 200, std::move(respond));
-    // A page of another site cannot send a DELETE unasked, with a body or without.
-    if (!request.body.empty() && !is_json(request.content_type)) return respond(not_json());
-    if (!atlas_.erase(name)) return respond(not_found(request.target));
-    return respond({.status = 204, .content_type = {}, .headers = {}, .body = {}});
+    if (request.method == "DELETE") return delete_map(request, name, std::move(respond));
+  } else if (part != "figures" && part != "states.png" && part != "export.glb") {
+    return respond(not_found(request.target));
+  } else if (!check_method(request, {"GET"}, respond)) {
+    return;
   }
+  auto question = map_question(request, target, part);
+  if (!question) return respond(problem(question.error()));
+  ask_map(atlas_, name, std::move(*question), std::move(respond));
+}
 
-  if (!check_method(request, {"GET"}, respond)) return;
-  if (part == "figures") return give_figures(room, std::move(respond));
+protocol::Result<Question> Api::map_question(const HttpRequest& request, const Target& target,
+                                             const std::string& part) const {
+  if (part.empty())
+    return [](const RoomPointer& room, Given give) { describe_map(room, 200, std::move(give)); };
+  if (part == "figures") return give_figures;
   if (part == "states.png") {
     const auto layer = number(target, "layer", 0);
-    if (!layer) return respond(no_number("layer"));
-    return give_states(room, *layer, workers_, std::move(respond));
+    if (!layer) return no_number("layer");
+    return [layer = *layer, &workers = workers_](const RoomPointer& room, Given give) {
+      give_states(room, layer, workers, std::move(give));
+    };
   }
-  ExportQuestion question{.seq = {}, .if_none_match = request.if_none_match};
+  ExportQuestion asked{.seq = {}, .if_none_match = request.if_none_match};
   if (target.asked("seq")) {
-    question.seq = number(target, "seq", 0);
-    if (!question.seq) return respond(no_number("seq"));
+    asked.seq = number(target, "seq", 0);
+    if (!asked.seq) return no_number("seq");
   }
-  give_export(room, std::move(question), workers_, std::move(respond));
+  return [asked, &workers = workers_](const RoomPointer& room, Given give) {
+    give_export(room, asked, workers, std::move(give));
+  };
 }
 
 }  // namespace earthwork::net

@@ -6,6 +6,7 @@
 
 #include "server/net/access.hpp"
 #include "server/net/http_message.hpp"
+#include "server/net/map_question.hpp"
 #include "server/net/target.hpp"
 #include "server/net/workers.hpp"
 #include "server/room/atlas.hpp"
@@ -36,6 +37,11 @@ class Api {
   void handle_maps(const HttpRequest& request, Respond respond) const;
   void handle_map(const HttpRequest& request, const Target& target, Respond respond) const;
   void create_map(const HttpRequest& request, Respond respond) const;
+  void delete_map(const HttpRequest& request, const std::string& name, Respond respond) const;
+  /// What a GET of this part of a map asks; fails with bad_field.
+  [[nodiscard]] protocol::Result<Question> map_question(const HttpRequest& request,
+                                                        const Target& target,
+                                                        const std::string& part) const;
   void list_maps(const Respond& respond) const;
   void give_metrics(Respond respond) const;
 

@@ -14,8 +14,12 @@ using protocol::MessageId;
 
 namespace {
 
+using RoomPointer = std::shared_ptr<room::Room>;
+
 // A server that is ended on purpose is usually started again at once.
 constexpr std::uint32_t kRestartMs = 1000;
+// How often a map that is put away at the same moment is asked for.
+constexpr int kMaxJoinTries = 3;
 
 }  // namespace
 
@@ -69,14 +73,29 @@ void Conversation::handle(protocol::Join& join) {
   if (place_ == Place::inside)
     return reject(join.id, {Code::bad_state, "leave " + room_->name() + " first", "type"});
   if (join.seq) return refuse_unsupported(join.id, "join with seq");
-  auto room = atlas_.find(join.map);
-  if (!room) return reject(join.id, {Code::unknown_map, "map: there is no " + join.map, "map"});
-
   place_ = Place::entering;
-  run_in(room, [self = shared_from_this(), room, user = user_, id = join.id](room::Room&) {
-    auto entrance = room->join(self, user);
-    self->own_->post(
-        [self, room, entrance = std::move(entrance), id] { self->entered(room, entrance, id); });
+  enter({join.map, user_, join.id, kMaxJoinTries});
+}
+
+void Conversation::enter(Wish wish) {
+  auto opened = [self = shared_from_this(), wish](const protocol::Result<RoomPointer>& room) {
+    if (!room) return self->come_back({}, tl::unexpected<Failure>(room.error()), wish.id);
+    self->run_in(*room, [self, wish, room = *room](room::Room&) {
+      auto entrance = room->join(self, wish.user);
+      if (!entrance) self->atlas_.let_go(*room);
+      if (!entrance && wish.tries > 1)
+        return self->enter({wish.map, wish.user, wish.id, wish.tries - 1});
+      self->come_back(room, std::move(entrance), wish.id);
+    });
+  };
+  atlas_.open(wish.map, room::Atlas::Errand::visit, std::move(opened));
+}
+
+void Conversation::come_back(const RoomPointer& room,
+                             protocol::Result<room::Room::Entrance> entrance,
+                             std::optional<MessageId> id) {
+  own_->post([self = shared_from_this(), room, entrance = std::move(entrance), id] {
+    self->entered(room, entrance, id);
   });
 }
 
@@ -268,10 +287,10 @@ void Conversation::refuse_unsupported(std::optional<MessageId> id, const char* w
   reject(id, {Code::not_supported, std::string(what) + " is not offered by this server", "type"});
 }
 
-void Conversation::say_bye(Failure why) {
+void Conversation::say_bye(Failure why, std::optional<std::uint32_t> retry_after_ms) {
   if (ending_) return;
   ending_ = true;
-  protocol::Bye bye{.failure = std::move(why), .retry_after_ms = {}};
+  protocol::Bye bye{.failure = std::move(why), .retry_after_ms = retry_after_ms};
   if (bye.failure.code == Code::shutting_down) bye.retry_after_ms = kRestartMs;
   outbox_.end(std::move(bye));
   wake_();
@@ -313,7 +332,11 @@ void Conversation::tell(room::Talk talk) {
 }
 
 void Conversation::end(protocol::Bye bye) {
-  own_->post([self = shared_from_this(), why = std::move(bye.failure)] { self->say_bye(why); });
+  own_->post([self = shared_from_this(), bye = std::move(bye)] {
+    self->place_ = Place::leaving;
+    self->room_.reset();
+    self->say_bye(bye.failure, bye.retry_after_ms);
+  });
 }
 
 }  // namespace earthwork::net

@@ -34,7 +34,8 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void receive(std::string_view text);
   /// A binary message, of which there are none from clients.
   void refuse_binary();
-  /// The next message is to be read now. While a join or a leave is under way it is not.
+  /// The next message is to be read now. While a join, which may have to wait for a map to be
+  /// opened, or a leave is under way it is not.
   [[nodiscard]] bool may_read() const;
   [[nodiscard]] bool greeted() const { return !user_.session.empty(); }
 
@@ -44,7 +45,7 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void written();
 
   /// Says why, and ends.
-  void say_bye(protocol::Failure why);
+  void say_bye(protocol::Failure why, std::optional<std::uint32_t> retry_after_ms = {});
   /// Nothing more will be said: bye was taken.
   [[nodiscard]] bool ended() const { return outbox_.ended(); }
   /// Bye was said, or is about to be.
@@ -76,6 +77,18 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void reject(std::optional<protocol::MessageId> id, protocol::Failure why);
   void count(const protocol::Failure& refused);
   void refuse_unsupported(std::optional<protocol::MessageId> id, const char* what);
+  struct Wish {
+    std::string map;
+    protocol::User user;
+    std::optional<protocol::MessageId> id;
+    int tries;
+  };
+  /// Into the map's room; when that is found closed, into the one that comes after it, in so many
+  /// tries. Any thread.
+  void enter(Wish wish);
+  void come_back(const std::shared_ptr<room::Room>& room,
+                 protocol::Result<room::Room::Entrance> entrance,
+                 std::optional<protocol::MessageId> id);
   void entered(const std::shared_ptr<room::Room>& room,
                protocol::Result<room::Room::Entrance> entrance,
                std::optional<protocol::MessageId> id);

@@ -23,6 +23,13 @@ int status_of(Code code) {
       return 408;
     case Code::shutting_down:
       return 503;
+    case Code::disk_full:
+      return 507;
+    case Code::read_only:
+    case Code::storage_failed:
+    case Code::unavailable:
+      return 503;
+    case Code::damaged:
     case Code::internal:
       return 500;
     default:
@@ -57,7 +64,7 @@ const char* title_of(int status) {
     case 501:
       return "Not supported";
     case 503:
-      return "Busy";
+      return "Not now";
     case 507:
       return "No room left";
     default:
@@ -93,7 +100,9 @@ HttpResponse problem(int status, const protocol::Failure& failure) {
 }
 
 HttpResponse problem(const protocol::Failure& failure) {
-  return problem(status_of(failure.code), failure);
+  HttpResponse response = problem(status_of(failure.code), failure);
+  if (response.status == 503) response.headers.emplace_back("Retry-After", "1");
+  return response;
 }
 
 }  // namespace earthwork::net

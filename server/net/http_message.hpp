@@ -33,7 +33,7 @@ using Respond = std::function<void(HttpResponse)>;
 [[nodiscard]] HttpResponse text_response(std::string text);
 /// A problem document (RFC 9457): type, title, status, detail, and field unless empty.
 [[nodiscard]] HttpResponse problem(int status, const protocol::Failure& failure);
-/// The same, with the status that belongs to the failure's code.
+/// The same, with the status that belongs to the failure's code, and when to come back with a 503.
 [[nodiscard]] HttpResponse problem(const protocol::Failure& failure);
 
 }  // namespace earthwork::net

@@ -53,14 +53,11 @@ class Page {
   std::vector<MetricFamily> families_;
 };
 
-MetricFamily rejected(const room::Meters& meters) {
-  MetricFamily family{"earthwork_rejected_total",
-                      "Messages that were refused, by the code of the refusal.",
-                      MetricType::Counter,
-                      {}};
-  for (std::size_t i = 0; i < meters.rejected.size(); ++i) {
-    ClientMetric metric =
-        measured(MetricType::Counter, static_cast<double>(meters.rejected[i].load()));
+template <class Counts>
+MetricFamily by_code(const char* family_name, const char* help, const Counts& counts) {
+  MetricFamily family{family_name, help, MetricType::Counter, {}};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    ClientMetric metric = measured(MetricType::Counter, static_cast<double>(counts[i].load()));
     metric.label = {{"code", std::string(name(static_cast<protocol::Code>(i)))}};
     family.metric.push_back(std::move(metric));
   }
@@ -74,7 +71,8 @@ void add_work(Page& page, const room::Meters& meters) {
   page.counter("earthwork_edits_repeated_total",
                "Edits that were sent again after they had been applied, and only answered.",
                meters.repeated.load());
-  page.add(rejected(meters));
+  page.add(by_code("earthwork_rejected_total",
+                   "Messages that were refused, by the code of the refusal.", meters.rejected));
   page.counter("earthwork_meshed_chunks_total", "Meshes of chunks that were made.",
                meters.meshed_chunks.load());
   page.counter("earthwork_mesh_seconds_total",
@@ -87,8 +85,27 @@ void add_work(Page& page, const room::Meters& meters) {
   page.counter("earthwork_control_bytes_total", "Bytes of those.", meters.control_bytes.load());
 }
 
+void add_journals(Page& page, const room::Meters& meters) {
+  page.counter("earthwork_commits_total", "Batches of edits that were stored.",
+               meters.commits.load());
+  page.counter("earthwork_committed_events_total", "Edits in those batches.",
+               meters.committed_events.load());
+  page.counter("earthwork_commit_seconds_total",
+               "Time from when a batch was handed over until it was stored, all added up.",
+               static_cast<double>(meters.commit_ns.load()) * kNanosecond);
+  page.gauge("earthwork_waiting_events",
+             "Edits that were accepted and are not stored yet: nobody was told of them.",
+             meters.waiting_events.load());
+  page.counter("earthwork_keyframes_total", "States of maps that were stored beside their edits.",
+               meters.keyframes.load());
+  page.add(by_code("earthwork_journal_failures_total",
+                   "What could not be stored, opened or removed, by the code of the failure.",
+                   meters.journal_failures));
+}
+
 void add_load(Page& page, const MapTotals& totals) {
-  page.gauge("earthwork_maps", "Maps that are live.", totals.maps);
+  page.gauge("earthwork_maps", "Maps that there are.", totals.maps);
+  page.gauge("earthwork_open_maps", "Maps that are in memory.", totals.open_maps);
   page.gauge("earthwork_viewers", "Sessions that have joined a map.", totals.viewers);
   page.gauge("earthwork_waiting_edits", "Edits that were received and not applied yet.",
              totals.waiting_edits);
@@ -122,6 +139,7 @@ std::string metrics_text(const room::Meters& meters, const MapTotals& totals,
                          const ProcessUsage& usage) {
   Page page;
   add_work(page, meters);
+  add_journals(page, meters);
   add_load(page, totals);
   page.gauge("process_resident_memory_bytes", "Memory that the process has in use.",
              usage.resident_bytes);

@@ -31,7 +31,8 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
-constexpr std::chrono::milliseconds kStopPatience{3500};
+// What sessions have to end in, and all of the end together: the rest is for the maps.
+constexpr std::chrono::milliseconds kSessionsPatience{2000}, kStopPatience{3800};
 constexpr int kWorkerThreads = 1;
 // That are being told at a time that there are too many; yet more are closed without a word.
 constexpr std::size_t kMaxTurnedAway = 64;
@@ -56,9 +57,10 @@ struct Server::Running {
   explicit Running(const ServerOptions& options)
       : acceptor(asio::make_strand(context)),
         address(options.listen),
-        atlas([this] { return room::make_asio_strand(context.get_executor()); }),
+        atlas(atlas_options(options)),
         limits(options.limits) {}
 
+  room::AtlasOptions atlas_options(const ServerOptions& options);
   void listen();
   asio::awaitable<void> accept();
   void admit(tcp::socket socket);
@@ -72,9 +74,24 @@ struct Server::Running {
   SessionLimits limits;
   Workers workers{kWorkerThreads};
   std::optional<Api> api;
+  // For the atlas, which never has more for them than they take.
+  Workers keepers{room::kMaxMapsUnderWay};
   std::once_flag stopped;
+  bool all_stored = true;
   std::vector<std::jthread> threads;
 };
+
+room::AtlasOptions Server::Running::atlas_options(const ServerOptions& options) {
+  room::AtlasOptions made{
+      .make_strand = [this] { return room::make_asio_strand(context.get_executor()); },
+      .aside =
+          [this](room::Strand::Task task) {
+            [[maybe_unused]] const bool taken = keepers.offer(std::move(task));
+          },
+      .idle = options.idle};
+  if (options.shelf) made.shelf = options.shelf;
+  return made;
+}
 
 void Server::Running::listen() {
   const tcp::endpoint endpoint(asio::ip::make_address(address.numeric_host()), address.port);
@@ -125,6 +142,8 @@ void Server::Running::admit(tcp::socket socket) {
 
 protocol::Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options) {
   auto running = std::make_unique<Running>(options);
+  if (auto known = running->atlas.take_stock(); !known)
+    return tl::unexpected<protocol::Failure>(std::move(known.error()));
   try {
     running->listen();
   } catch (const boost::system::system_error& error) {
@@ -151,17 +170,22 @@ const ListenAddress& Server::address() const { return running_->address; }
 
 room::Atlas& Server::atlas() { return running_->atlas; }
 
-void Server::stop() {
+bool Server::stop() {
   std::call_once(running_->stopped, [this] {
+    const auto end = std::chrono::steady_clock::now() + kStopPatience;
     asio::post(running_->acceptor.get_executor(), [running = running_.get()] {
       boost::system::error_code ignored;
       running->acceptor.close(ignored);
     });
     running_->turned_away.stop_all(std::chrono::milliseconds(0));
-    running_->connections.stop_all(kStopPatience);
+    running_->connections.stop_all(kSessionsPatience);
+    running_->all_stored =
+        running_->atlas.stop(std::chrono::duration_cast<std::chrono::milliseconds>(
+            end - std::chrono::steady_clock::now()));
     running_->context.stop();
     running_->threads.clear();
   });
+  return running_->all_stored;
 }
 
 }  // namespace earthwork::net

@@ -1,6 +1,7 @@
 /// A running server: it listens, and gives every connection its place on a pool of threads.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,12 +19,15 @@ struct ServerOptions {
   std::vector<std::string> allowed_hosts;  ///< "HOST" or "HOST:PORT", beside the usual ones.
   int threads = 0;                         ///< For sockets and maps; 0: one a core.
   SessionLimits limits;
+  std::shared_ptr<journal::Shelf> shelf{};  ///< Where the maps are; null: in memory.
+  std::chrono::milliseconds idle{60'000};   ///< After which a map that nobody uses is put away.
 };
 
 /// Any thread.
 class Server {
  public:
-  /// Listens and serves from now on. Fails with bad_field when it cannot listen there.
+  /// Listens and serves from now on. Fails with bad_field when it cannot listen there, and as the
+  /// shelf does when it cannot tell which maps it has.
   [[nodiscard]] static protocol::Result<std::unique_ptr<Server>> start(
       const ServerOptions& options);
   /// As `stop`.
@@ -37,9 +41,9 @@ class Server {
   [[nodiscard]] std::string url() const { return "http://" + address().text(); }
   [[nodiscard]] room::Atlas& atlas();
 
-  /// Says bye to the sessions, lets answers finish, and ends: within 4 s. Once is enough, more do
-  /// no harm.
-  void stop();
+  /// Says bye to the sessions, lets answers finish, stores what was accepted, and ends: within 4 s.
+  /// Once is enough, more do no harm. False when a map could not be stored and closed in time.
+  bool stop();
 
  private:
   struct Running;

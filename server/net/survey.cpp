@@ -15,12 +15,12 @@ void MapTotals::add(const room::RoomLoad& load) {
 }
 
 void Survey::ask(Told told) {
-  const auto rooms = atlas_.list();
+  const auto rooms = atlas_.rooms();
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(told));
     if (waiting_.size() > 1) return;
-    totals_ = {.maps = rooms.size()};
+    totals_ = {.maps = atlas_.list().size(), .open_maps = rooms.size()};
     unanswered_ = rooms.size();
   }
   if (rooms.empty()) return finish();

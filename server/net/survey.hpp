@@ -1,4 +1,4 @@
-/// Asks all maps at once how much waits in them, without making any of them wait.
+/// Asks all open maps at once how much waits in them, without making any of them wait.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,10 @@
 
 namespace earthwork::net {
 
-/// All maps added up, each as it was when its turn came.
+/// All maps that are open added up, each as it was when its turn came. None is opened for it.
 struct MapTotals {
-  std::size_t maps = 0, viewers = 0, waiting_edits = 0, dirty_chunks = 0, owed_chunks = 0;
+  std::size_t maps = 0;  ///< That there are, open or not.
+  std::size_t open_maps = 0, viewers = 0, waiting_edits = 0, dirty_chunks = 0, owed_chunks = 0;
   std::int64_t oldest_wait_ms = 0;  ///< The longest of any map.
 
   void add(const room::RoomLoad& load);
@@ -29,9 +30,9 @@ class Survey : public std::enable_shared_from_this<Survey> {
   /// The atlas must outlive every round.
   explicit Survey(const room::Atlas& atlas) : atlas_(atlas) {}
 
-  /// Calls `told` once, when every map has answered: from the strand of the last one, or at once
-  /// where there is none. One round goes on at a time, whoever asks meanwhile is told its totals:
-  /// so however many ask, a map has one task of it in line.
+  /// Calls `told` once, when every open map has answered: from the strand of the last one, or at
+  /// once where none is open. One round goes on at a time, whoever asks meanwhile is told its
+  /// totals: so however many ask, a map has one task of it in line.
   void ask(Told told);
 
  private:

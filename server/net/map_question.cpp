@@ -1,0 +1,27 @@
+#include "server/net/map_question.hpp"
+
+#include <utility>
+
+namespace earthwork::net {
+
+void ask_map(room::Atlas& atlas, const std::string& map, Question question, Respond respond,
+             int tries) {
+  if (tries == 0)
+    return respond(problem({protocol::Code::unavailable,
+                            "map: what it would show could not be stored; try again", "map"}));
+  auto ask = [&atlas, map, question = std::move(question), respond = std::move(respond),
+              tries](const protocol::Result<RoomPointer>& room) {
+    if (!room) return respond(problem(room.error()));
+    question(*room, [&atlas, map, question, respond, tries,
+                     there = *room](std::optional<HttpResponse> answer) {
+      if (answer) return respond(std::move(*answer));
+      there->strand().post([&atlas, map, question, respond, tries, there] {
+        if (there->closed()) atlas.let_go(*there);
+        ask_map(atlas, map, question, respond, tries - 1);
+      });
+    });
+  };
+  atlas.open(map, room::Atlas::Errand::question, std::move(ask));
+}
+
+}  // namespace earthwork::net
