@@ -54,12 +54,11 @@ class Import {
     waiting_.clear();
     return appended;
   }
-  Result<Imported> finish(std::int64_t now_ms) {
-    if (auto stored = store(); !stored) return tl::unexpected<Failure>(std::move(stored.error()));
-    if (auto put = put_whole_keyframe(journal_, executed_, now_ms); !put)
-      return tl::unexpected<Failure>(std::move(put.error()));
-    return Imported{executed_.seq, executed_.hash};
+  Result<void> finish(std::int64_t now) {
+    if (auto stored = store(); !stored) return stored;
+    return put_whole_keyframe(journal_, executed_, now);
   }
+  [[nodiscard]] const journal::Execution& executed() const { return executed_; }
 
  private:
   Journal& journal_;
@@ -108,6 +107,7 @@ Result<Imported> import_to(std::istream& recording, const std::filesystem::path&
       },
       now);
   if (!imported) return imported;
+  imported->journal.reset();
   if (auto forked = journal::fork_map_file(draft.path(), place, epoch, now, {}); !forked)
     return tl::unexpected<Failure>(std::move(forked.error()));
   return imported;
@@ -127,13 +127,16 @@ Result<Imported> import_recording(std::istream& recording, const MakeJournal& ma
   for (;;) {
     const auto line = lines.next();
     if (!line) return at_line(lines.number(), line.error());
-    if (!*line) return import.finish(now);
+    if (!*line) break;
     if (auto taken = import.take(**line); !taken)
       return at_line(lines.number(), std::move(taken.error()));
     if (!import.full()) continue;
     if (auto stored = import.store(); !stored)
       return tl::unexpected<Failure>(std::move(stored.error()));
   }
+  if (auto finished = import.finish(now); !finished)
+    return tl::unexpected<Failure>(std::move(finished.error()));
+  return Imported{import.executed().seq, import.executed().hash, std::move(*journal)};
 }
 
 int import_map(const MapFlags& flags) {

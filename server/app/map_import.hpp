@@ -16,16 +16,17 @@ inline constexpr std::size_t kImportBatch = 1024;  ///< Events an append, at mos
 
 struct Imported {
   std::uint64_t seq = 0, hash = 0;
+  std::unique_ptr<journal::Journal> journal;
 };
 
-/// The journal that the recording goes into, empty.
+/// A journal for the recording to go into, empty.
 using MakeJournal = std::function<protocol::Result<std::unique_ptr<journal::Journal>>(
     const protocol::MapSettings& settings)>;
 
 /// Executes a recording while it is read, compares every hash, and appends the events with their
 /// times, authors and ids; puts a keyframe at the end. Fails where the recording is none, is not
 /// whole, or goes beyond a limit, the detail beginning with "line N: "; and as the journal does.
-/// After a failure the journal holds a part of it. Holds one map and kImportBatch events.
+/// A journal that was made then holds a part of it. Holds one map and kImportBatch events.
 [[nodiscard]] protocol::Result<Imported> import_recording(std::istream& recording,
                                                           const MakeJournal& make_journal,
                                                           std::int64_t now_ms);
