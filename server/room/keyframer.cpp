@@ -50,8 +50,9 @@ struct Keyframer::Attempt {
 
 // The chunks whose age is above the newest keyframe's have changed since, by the events that were
 // repeated; so it is with authors, whose last id is their latest.
-Keyframer::Keyframer(Subject subject, const journal::Restored& start)
+Keyframer::Keyframer(Subject subject, const journal::Restored& start, KeyframePace pace)
     : subject_(std::move(subject)),
+      pace_(pace),
       accepted_{start.seq, start.hash},
       handed_over_(accepted_),
       durable_(accepted_),
@@ -80,8 +81,8 @@ void Keyframer::handed_over() {
 
 // After one that failed, chunks alone do not make the next one due: they would at once.
 bool Keyframer::due() const {
-  if (handed_over_.seq - tried_seq_ >= kKeyframeEvents) return true;
-  return tried_seq_ == newest_seq_ && changed_.size() >= kKeyframeChunks;
+  if (handed_over_.seq - tried_seq_ >= pace_.events) return true;
+  return tried_seq_ == newest_seq_ && changed_.size() >= pace_.chunks;
 }
 
 void Keyframer::durable() {

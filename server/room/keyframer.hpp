@@ -20,19 +20,22 @@
 
 namespace earthwork::room {
 
-/// A keyframe is made after so many events: they are what a start has to repeat, some 10 us each;
-inline constexpr std::uint64_t kKeyframeEvents = 4096;
-/// or when so many chunks are different: so many copies are taken within a millisecond.
-inline constexpr std::size_t kKeyframeChunks = 4096;
+/// When a keyframe is due.
+struct KeyframePace {
+  /// So many events after the last one: they are what a start has to repeat, some 10 us each.
+  std::uint64_t events = 4096;
+  /// Or with so many chunks that are different: copies of them are taken within a millisecond.
+  std::size_t chunks = 4096;
+};
 /// What the clerk puts in one task: a commit that comes meanwhile waits for it.
 inline constexpr std::size_t kChunksPerTask = 32;
 inline constexpr std::size_t kAuthorsPerTask = 4;
 inline constexpr std::size_t kRowsTidiedPerTask = 256;
 
 /// One keyframe is in the making at a time; what changes meanwhile gathers for the next. One that
-/// could not be put is dropped: what it was made of counts as changed again, and kKeyframeEvents
-/// later the next is made. Takes memory for the keys of what changed and, while a keyframe is in
-/// the making, for what the map no longer shares with the copies.
+/// could not be put is dropped: what it was made of counts as changed again, and
+/// KeyframePace::events later the next is made. Takes memory for the keys of what changed and,
+/// while a keyframe is in the making, for what the map no longer shares with the copies.
 ///
 /// On the strand of the room whose part it is.
 class Keyframer {
@@ -48,7 +51,7 @@ class Keyframer {
     const Strand& clock;
   };
   /// `start` is how the map began: all of it is durable. What `subject` refers to outlives it.
-  Keyframer(Subject subject, const journal::Restored& start);
+  Keyframer(Subject subject, const journal::Restored& start, KeyframePace pace = {});
   ~Keyframer();
   Keyframer(const Keyframer&) = delete;
   Keyframer& operator=(const Keyframer&) = delete;
@@ -90,6 +93,7 @@ class Keyframer {
   void wind_up();
 
   const Subject subject_;
+  const KeyframePace pace_;
   Moment accepted_, handed_over_, durable_;    // each at or after the next
   ChunkSeqs changed_;                          // since the newest keyframe: by which event last
   std::unordered_set<std::uint64_t> authors_;  // likewise: who has new ids

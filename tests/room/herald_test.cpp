@@ -3,11 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+#include <initializer_list>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "server/room/manual_context.hpp"
+#include "tests/journal/logs.hpp"
+#include "tests/journal/tampered_journal.hpp"
+#include "tests/room/manual_clerk.hpp"
 #include "tests/room/onlooker.hpp"
 
 namespace earthwork::room {
@@ -27,15 +34,27 @@ struct HeraldTest : testing::Test {
     protocol::Edit edit = disc(1, 2, 3);
     edit.path.resize(points);
     edit.is_path = true;
-    events.push_back({.seq = events.size() + 1, .time_ms = 0, .author = 7, .id = 1, .edit = edit});
+    const history::Event event{
+        .seq = past.last_seq() + 1, .time_ms = 0, .author = 7, .id = 1, .edit = edit};
+    ASSERT_TRUE(clerk.journal().append(event.seq - 1, {&event, 1}));
+    past.add({&event, 1});
+  }
+  /// As long as it takes, and not much longer: the clerk and the viewers do what they can.
+  void hear_all(std::initializer_list<ViewerId> ids, std::uint64_t to) {
+    for (std::uint64_t n = 0; n < 10 + to; ++n) {
+      clerk.run(1);
+      context.run();
+      for (const ViewerId id : ids) herald.heard(id);
+    }
   }
   std::size_t heard_events(ViewerId id) const { return eyes.at(id).events().size(); }
 
   ManualContext context;
   std::unique_ptr<Strand> strand = context.make_strand();
-  std::vector<history::Event> events;
+  ManualClerk clerk{journal::make_memory_journal(journal::small_identity())};
+  PastEvents past{clerk, back_at_once, 0};
   int tasks = 0;
-  Herald herald{events, *strand, [this](std::chrono::milliseconds delay, Strand::Task task) {
+  Herald herald{past, *strand, [this](std::chrono::milliseconds delay, Strand::Task task) {
                   ++tasks;
                   if (delay == 0ms)
                     strand->post(std::move(task));
@@ -166,9 +185,10 @@ TEST_F(HeraldTest, EventsDoNotKeepPeopleWaiting) {
   enter(1), enter(2);
   context.advance(1s);
   herald.heard(1);
-  for (int i = 0; i < 2000; ++i) accept(400);
+  for (int i = 0; i < 2000; ++i) accept(400);  // far beyond what is in memory
   herald.follow(1, 1);
   context.run();
+  clerk.run();
   point(2, 77);
   context.run();
   herald.heard(1);
@@ -176,6 +196,153 @@ TEST_F(HeraldTest, EventsDoNotKeepPeopleWaiting) {
   EXPECT_LT(told, 200u);
   ASSERT_EQ(eyes[1].people().size(), 2u);
   EXPECT_EQ(eyes[1].people()[1].cursors.at(0).at->x, 77);
+}
+
+TEST_F(HeraldTest, FollowersFromAnywhereArriveAtWhatHappensNow) {
+  for (int i = 0; i < 600; ++i) accept(20);  // 500 of them beyond what is in memory
+  enter(1), enter(2), enter(3);
+  herald.follow(1, 1), herald.follow(2, 300), herald.follow(3, 601);
+  hear_all({1, 2, 3}, 40);
+  for (int i = 0; i < 5; ++i) accept();
+  herald.tell_events();
+  hear_all({1, 2, 3}, 10);
+  for (const auto& [id, from] : {std::pair{1u, 1u}, {2u, 300u}, {3u, 601u}}) {
+    const auto events = eyes[id].events();
+    ASSERT_EQ(events.size(), 606 - from) << id;
+    for (std::size_t i = 0; i < events.size(); ++i) ASSERT_EQ(events[i].seq, from + i) << id;
+  }
+}
+
+TEST_F(HeraldTest, ABusyReaderOfThePastKeepsNobodyWaiting) {
+  for (int i = 0; i < 2000; ++i) accept(100);
+  enter(1), enter(2);
+  context.advance(1s);
+  herald.heard(1), herald.heard(2);
+  herald.follow(1, 1), herald.follow(2, 2001);
+  context.run();
+  for (std::size_t i = 0; i < 5; ++i) {
+    clerk.run(1);
+    herald.heard(1);
+    accept();
+    herald.tell_events();  // the one who reads waits for a page, or hears
+    ASSERT_EQ(heard_events(2), i + 1);
+    herald.heard(2);
+  }
+  EXPECT_GT(heard_events(1), 30u);
+}
+
+TEST_F(HeraldTest, NothingIsReadForWhoDoesNotHear) {
+  for (int i = 0; i < 2000; ++i) accept(100);
+  enter(1);
+  herald.follow(1, 1);
+  context.run();
+  EXPECT_EQ(clerk.run(), 2);  // one was told, and the next is at hand
+  accept();
+  herald.tell_events();
+  EXPECT_EQ(clerk.waiting(), 0u);
+  herald.leave(1);
+  EXPECT_EQ(clerk.waiting(), 0u);
+}
+
+TEST(Herald, TellsWhoseEventsCannotBeReadAndGoesOn) {
+  auto tampered =
+      std::make_unique<journal::TamperedJournal>(journal::journal_of(journal::ten_events()));
+  tampered->unreadable_event = 3;
+  ManualClerk clerk(std::move(tampered));
+  PastEvents past(clerk, back_at_once, 10);
+  ManualContext context;
+  const auto strand = context.make_strand();
+  Herald herald(past, *strand, [&](std::chrono::milliseconds, Strand::Task task) {
+    strand->post(std::move(task));
+  });
+  Onlooker ann, bob;
+  herald.enter(1, ann, user(1)), herald.enter(2, bob, user(2));
+  context.run(5), herald.heard(1), herald.heard(2);
+  ann.talks.clear();
+  herald.follow(1, 2), herald.follow(2, 4);
+  context.run(5);
+  clerk.run();
+  ASSERT_EQ(ann.talks.size(), 1u);
+  EXPECT_NE(ann.talks[0].messages.back()->find(R"("code":"damaged")"), std::string::npos);
+  EXPECT_EQ(bob.events().size(), 7u);
+  herald.heard(1), herald.heard(2);
+  const history::Event next{.seq = 11, .time_ms = 0, .author = 7, .id = 1, .edit = disc(1, 1, 1)};
+  past.add({&next, 1});
+  herald.tell_events();
+  EXPECT_EQ(ann.talks.size(), 1u);
+  EXPECT_EQ(bob.events().size(), 8u);
+}
+
+/// Makes the events of a log that nobody could hold.
+struct LongLog final : journal::Journal {
+  explicit LongLog(std::uint64_t count) : count_(count) {}
+  const journal::Identity& identity() const override { return identity_; }
+  std::uint64_t last_seq() const override { return count_; }
+  protocol::Result<std::vector<history::Event>> events(std::uint64_t from,
+                                                       std::size_t most_bytes) override {
+    std::vector<history::Event> page;
+    for (std::size_t bytes = 0; bytes < most_bytes && from <= count_; bytes += 100)
+      page.push_back({.seq = from++, .time_ms = 0, .author = 7, .id = 1, .edit = disc(1, 1, 1)});
+    return page;
+  }
+  protocol::Result<void> append(std::uint64_t, std::span<const history::Event>) override {
+    return {};
+  }
+  protocol::Result<void> put_chunks(std::span<const journal::ChunkState>) override { return {}; }
+  protocol::Result<void> put_authors(std::span<const journal::AuthorState>) override { return {}; }
+  protocol::Result<void> put_keyframe(const journal::Keyframe&) override { return {}; }
+  protocol::Result<bool> tidy(std::size_t) override { return true; }
+  protocol::Result<std::vector<journal::Keyframe>> keyframes() override { return {}; }
+  protocol::Result<void> chunks(
+      std::uint64_t, const std::function<protocol::Result<void>(journal::ChunkState)>&) override {
+    return {};
+  }
+  protocol::Result<std::vector<journal::AuthorState>> authors() override { return {}; }
+
+ private:
+  journal::Identity identity_ = journal::small_identity();
+  std::uint64_t count_;
+};
+
+/// Counts what it hears, checks the numbers, and forgets it.
+struct Listener final : Viewer {
+  void answered(std::vector<Reply>) override {}
+  void deliver(Parcel) override {}
+  void end(protocol::Bye) override {}
+  void tell(Talk talk) override {
+    for (const SharedText& text : talk.messages) {
+      texts.push_back(text);
+      if (texts.size() > 50'000) texts.pop_front();
+      if (text->rfind(R"({"type":"event","seq":)" + std::to_string(next) + ",", 0) == 0) ++next;
+    }
+  }
+  std::uint64_t next = 1;
+  std::deque<std::weak_ptr<const std::string>> texts;
+};
+
+TEST(Herald, ALongPastIsTakenInWithinBounds) {
+  constexpr std::uint64_t kCount = 200'000;
+  ManualClerk clerk(std::make_unique<LongLog>(kCount));
+  PastEvents past(clerk, back_at_once, kCount);
+  ManualContext context;
+  const auto strand = context.make_strand();
+  Herald herald(past, *strand, [&](std::chrono::milliseconds, Strand::Task task) {
+    strand->post(std::move(task));
+  });
+  Listener reader;
+  herald.enter(1, reader, user(1));
+  herald.follow(1, 1);
+  context.run(10);
+  for (int n = 0; n < 10'000 && reader.next <= kCount; ++n) {
+    clerk.run(1);
+    ASSERT_LE(clerk.waiting(), 1u);
+    herald.heard(1);
+  }
+  EXPECT_EQ(reader.next, kCount + 1);
+  std::size_t held = 0;
+  for (const auto& text : reader.texts)
+    if (const SharedText still = text.lock()) held += still->size();
+  EXPECT_LE(held, std::size_t{1} << 20);
 }
 
 TEST_F(HeraldTest, TellsALeaverNothing) {
