@@ -156,15 +156,21 @@ void Publisher::take_in_pending() {
   for (auto& [id, show] : shows_) show.subscription.owe(dirty);
 }
 
+// Who was just sent what is durable will be ready when the next commit ends: its meshes are made
+// while that is under way, or the map would be further by then.
+bool Publisher::plans_for(const Show& show) const {
+  return show.ready || (!shown_is_durable() && show.sent_seq == delivered_);
+}
+
 RoundPlan Publisher::plan_for_all() {
   RoundPlan plan(meshes_);
   for (const auto& [id, show] : shows_)
-    if (show.ready) show.subscription.plan_owed(plan);
+    if (plans_for(show)) show.subscription.plan_owed(plan);
   // First loads take turns, because one round may not have room for all.
   auto next = shows_.upper_bound(last_loader_);
   for (std::size_t left = shows_.size(); left > 0 && plan.takes_first_seen(); --left, ++next) {
     if (next == shows_.end()) next = shows_.begin();
-    if (next->second.ready) next->second.subscription.plan_first_load(plan);
+    if (plans_for(next->second)) next->second.subscription.plan_first_load(plan);
     last_loader_ = next->first;
   }
   return plan;
@@ -238,6 +244,7 @@ void Publisher::publish_to(Show& show, Beat beat) {
   if (due || show.subscription.waiting()) {
     if (Parcel parcel = show.subscription.compose(state(), beat); !parcel.empty()) {
       show.ready = false;
+      show.sent_seq = seq_;
       show.viewer->deliver(std::move(parcel));
     } else if (show.subscription.waiting() && !held()) {
       publish_soon();  // a stretch of a first load that held nothing

@@ -109,6 +109,7 @@ class Publisher {
     Subscription subscription;
     std::optional<protocol::View> wanted;  // asked for, and not taken up yet
     bool ready = true;                     // to take a parcel
+    std::uint64_t sent_seq = 0;            // of the last one
   };
 
   [[nodiscard]] bool shown_is_durable() const { return seq_ <= durable_; }
@@ -121,6 +122,7 @@ class Publisher {
   [[nodiscard]] bool held() const { return round_ || latest_ != seq_; }
   void rest();
   void take_in_pending();
+  [[nodiscard]] bool plans_for(const Show& show) const;
   [[nodiscard]] RoundPlan plan_for_all();
   void make(const std::vector<voxel::ChunkKey>& keys);
   void make_here(std::span<const voxel::ChunkKey> keys);

@@ -6,6 +6,7 @@
 
 #include <iterator>
 #include <map>
+#include <vector>
 
 namespace earthwork::room {
 namespace {
@@ -83,6 +84,74 @@ TEST(Authors, AgreeWithAListOfEverything) {
       const auto larger = std::distance(all.upper_bound(asked), all.end());
       RC_ASSERT(verdict.standing == (larger >= 4096 ? Standing::too_old : Standing::out_of_order));
     }
+  }));
+}
+
+journal::AuthorState state_of(std::uint64_t author, protocol::MessageId first, int count) {
+  journal::AuthorState state{.author = author, .applied = {}};
+  for (int n = 0; n < count; ++n)
+    state.applied.push_back({first + n, 100 + static_cast<std::uint64_t>(n)});
+  return state;
+}
+
+TEST(Authors, AreWhatTheyWereLeftAs) {
+  const std::vector<journal::AuthorState> left{state_of(7, 3, 2), state_of(8, 1, 4096),
+                                               state_of(9, 1, 0)};
+  Authors authors(left);
+  EXPECT_EQ(authors.judge(7, 4), (Verdict{Standing::repeated, 101}));
+  EXPECT_EQ(authors.judge(7, 5).standing, Standing::fresh);
+  EXPECT_EQ(authors.judge(8, 1), (Verdict{Standing::repeated, 100}));
+  EXPECT_EQ(authors.judge(9, 1).standing, Standing::fresh);
+  authors.applied(8, 4097, 9000);
+  EXPECT_EQ(authors.judge(8, 1).standing, Standing::too_old);
+  EXPECT_EQ(authors.state(7), left[0]);
+  EXPECT_EQ(authors.state(9), left[2]);
+  EXPECT_EQ(authors.state(8).applied.size(), 4096u);
+  EXPECT_EQ(authors.state(8).applied.front().id, 2);
+  EXPECT_EQ(authors.state(8).applied.back().seq, 9000u);
+}
+
+TEST(Authors, WhoIsLeftWithTooManyIdsKeepsTheLast) {
+  const std::vector<journal::AuthorState> left{state_of(7, 1, 4097)};
+  const Authors authors(left);
+  EXPECT_EQ(authors.judge(7, 1).standing, Standing::too_old);
+  EXPECT_EQ(authors.judge(7, 2), (Verdict{Standing::repeated, 101}));
+}
+
+TEST(Authors, ForgetWhatIsTakenBackAndNothingElse) {
+  Authors authors;
+  authors.applied(7, 1, 10), authors.applied(7, 5, 11), authors.applied(8, 1, 12);
+  authors.keep(10);
+  authors.take_back();
+  EXPECT_EQ(authors.judge(7, 1), (Verdict{Standing::repeated, 10}));
+  EXPECT_EQ(authors.judge(7, 5).standing, Standing::fresh);
+  EXPECT_EQ(authors.judge(7, 4).standing, Standing::fresh);
+  EXPECT_EQ(authors.judge(8, 1).standing, Standing::fresh);
+  EXPECT_TRUE(authors.state(8).applied.empty());
+}
+
+TEST(Authors, AreAfterTakingBackWhatTheyWereBefore) {
+  EXPECT_TRUE(rc::check([] {
+    const int count = *rc::gen::element(0, 1, 4090, 4096);
+    const std::vector<journal::AuthorState> left{state_of(7, 1, count)};
+    Authors authors(left);
+    std::uint64_t seq = 10'000;
+    protocol::MessageId id = count;
+    auto kept = authors.state(7);
+    for (int rounds = *rc::gen::inRange(1, 6); rounds > 0; --rounds) {
+      for (int n = *rc::gen::inRange(0, 30); n > 0; --n) authors.applied(7, ++id, ++seq);
+      if (*rc::gen::arbitrary<bool>()) {
+        authors.keep(seq);
+        kept = authors.state(7);
+      }
+      if (*rc::gen::arbitrary<bool>()) {
+        authors.take_back();
+        RC_ASSERT(authors.state(7) == kept);
+        id = kept.applied.empty() ? 0 : kept.applied.back().id;
+      }
+    }
+    authors.take_back();
+    RC_ASSERT(authors.state(7) == kept);
   }));
 }
 

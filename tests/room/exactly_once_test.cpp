@@ -174,7 +174,7 @@ void act(Client& client) {
 
 /// The events are every edit of every client once, and fold to the map, hash by hash.
 void check_events(World& world, const std::vector<Client>& clients) {
-  const auto events = world.room->events();
+  const auto events = world.events();
   std::set<std::pair<std::uint64_t, MessageId>> seen;
   for (const history::Event& event : events)
     RC_ASSERT(seen.insert({event.author, event.id}).second);

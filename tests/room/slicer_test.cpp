@@ -84,7 +84,7 @@ struct SlicedRoomTest : testing::Test, World {
   }
   void check_log() {
     voxel::Map again = history::make_map(room->settings());
-    EXPECT_EQ(history::verify(again, room->events()), std::nullopt);
+    EXPECT_EQ(history::verify(again, events()), std::nullopt);
     EXPECT_EQ(again.hash(), room->info().hash);
   }
 };

@@ -1,7 +1,10 @@
 #include "tests/room/world.hpp"
 
+#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "server/journal/memory_journal.hpp"
 
 namespace earthwork::room {
 namespace {
@@ -12,9 +15,22 @@ void must(const protocol::Result<void>& result) {
 
 }  // namespace
 
-World::World(protocol::MapSettings settings) {
-  room = std::make_shared<Room>("m", std::move(settings), 0xABCD, context.make_strand(), meters);
+journal::Identity identity_of(const protocol::MapSettings& settings) {
+  return {.settings = settings, .epoch = 0xABCD, .created_ms = 0};
 }
+
+World::World(const protocol::MapSettings& settings) {
+  auto in_memory = journal::make_memory_journal(identity_of(settings));
+  journal = in_memory.get();
+  auto clerk = journal::immediate_clerk(std::move(in_memory));
+  room = std::make_shared<Room>(
+      "m", open_empty(identity_of(settings), std::move(clerk), Commits::at_once),
+      context.make_strand(), meters);
+}
+
+World::World(Opening opening, journal::Journal& its_journal)
+    : room(std::make_shared<Room>("m", std::move(opening), context.make_strand(), meters)),
+      journal(&its_journal) {}
 
 World::Guest World::enter(const char* name, std::uint64_t author) {
   Guest guest;
@@ -48,6 +64,10 @@ void World::settle(Guest& guest) {
     room->ready(guest.id);
     context.run();
   }
+}
+
+std::vector<history::Event> World::events() {
+  return journal->events(1, std::numeric_limits<std::size_t>::max()).value();
 }
 
 std::uint64_t World::mesh_hash() {

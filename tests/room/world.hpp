@@ -3,16 +3,22 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "server/history/event.hpp"
+#include "server/journal/journal.hpp"
 #include "server/room/manual_context.hpp"
 #include "server/room/room.hpp"
 #include "tests/room/onlooker.hpp"
 
 namespace earthwork::room {
 
-/// Of resolution 8 unless told otherwise, so that small edits cross chunks.
+/// Small edits cross chunks.
+inline const protocol::MapSettings kSmallChunks{.chunk_resolution = 8, .chunks = {}};
+
+/// Over a journal in memory, whose commits are at once.
 struct World {
-  explicit World(protocol::MapSettings settings = {.chunk_resolution = 8, .chunks = {}});
+  explicit World(const protocol::MapSettings& settings = kSmallChunks);
 
   struct Guest {
     std::shared_ptr<Onlooker> eyes = std::make_shared<Onlooker>();
@@ -31,11 +37,19 @@ struct World {
   void settle(Guest& guest);
   /// Of the room, every mesh up to date.
   std::uint64_t mesh_hash();
+  /// All that is durable.
+  std::vector<history::Event> events();
 
   ManualContext context;
   std::shared_ptr<Meters> meters = std::make_shared<Meters>();
   std::shared_ptr<Room> room;
+  journal::Journal* journal = nullptr;  // the room's clerk's
   std::uint64_t last_session = 6;
+
+ protected:
+  World(Opening opening, journal::Journal& its_journal);
 };
+
+[[nodiscard]] journal::Identity identity_of(const protocol::MapSettings& settings);
 
 }  // namespace earthwork::room
