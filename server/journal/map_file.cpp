@@ -1,0 +1,296 @@
+#include "server/journal/map_file.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "server/journal/database.hpp"
+#include "server/journal/durable_files.hpp"
+#include "server/journal/map_keyframes.hpp"
+#include "server/journal/map_log.hpp"
+#include "server/journal/map_schema.hpp"
+#include "server/journal/map_tidying.hpp"
+#include "server/journal/tip_file.hpp"
+
+namespace earthwork::journal {
+namespace {
+
+using history::Event;
+using protocol::Code;
+using protocol::fail;
+using protocol::Failure;
+using protocol::Result;
+
+/// Where a log ends, and what says that it should end later.
+struct LogEnd {
+  std::uint64_t seq = 0;       // of the last event that is there
+  std::uint64_t promised = 0;  // of the last that has been there, as far as anything tells
+  std::uint64_t hash = 0;      // after `seq`
+};
+
+// A reader is told of what is missing when it comes to it, so it takes promises for granted.
+Result<LogEnd> find_end(Database& database, const std::optional<Tip>& tip) {
+  const auto event = last_event_seq(database);
+  const auto batch = last_batch_seq(database);
+  LogEnd end{.seq = event.value_or(0)};
+  end.promised = std::max({end.seq, batch.value_or(0), tip ? tip->seq : 0});
+  const auto hash = event_hash(database, end.seq);
+  end.hash = hash && *hash ? **hash : 0;
+  if (!event) return tl::unexpected<Failure>(event.error());
+  if (!batch) return tl::unexpected<Failure>(batch.error());
+  return end;
+}
+
+/// That the log ends where it should, its last batch being sound.
+Result<void> check_end(Database& database, const LogEnd& end, const std::optional<Tip>& tip) {
+  const auto batch = last_batch_seq(database);
+  if (!batch) return tl::unexpected<Failure>(batch.error());
+  if (*batch != end.seq)
+    return database.damaged("events", std::max(end.seq, *batch),
+                            "the last event is " + std::to_string(end.seq) +
+                                ", and the last batch ends with " + std::to_string(*batch));
+  if (tip && tip->seq > end.seq)
+    return database.damaged("events", end.seq + 1,
+                            "missing, up to " + std::to_string(tip->seq) +
+                                " were there, as the tip beside the file says");
+  if (tip && tip->seq > 0) {
+    const auto hash = event_hash(database, tip->seq);
+    if (!hash) return tl::unexpected<Failure>(hash.error());
+    if (*hash != tip->hash)
+      return database.damaged("events", tip->seq,
+                              "another log's, by the hash in the tip beside the file");
+  }
+  if (end.seq == 0) return {};
+  if (const auto last = read_log(database, end.seq, 1); !last)
+    return tl::unexpected<Failure>(last.error());
+  return {};
+}
+
+class MapFile final : public Journal {
+ public:
+  MapFile(std::filesystem::path path, Access access) : path_(std::move(path)), access_(access) {}
+  ~MapFile() override { close(); }
+
+  /// Whether it can be used at all.
+  Result<void> open();
+
+  const Identity& identity() const override { return identity_; }
+  std::uint64_t last_seq() const override { return end_.promised; }
+
+  Result<void> append(std::uint64_t expected_seq, std::span<const Event> events) override;
+  Result<std::vector<Event>> events(std::uint64_t from_seq, std::size_t most_bytes) override;
+  Result<void> put_chunks(std::span<const ChunkState> states) override;
+  Result<void> put_authors(std::span<const AuthorState> authors) override;
+  Result<void> put_keyframe(const Keyframe& keyframe) override;
+  Result<bool> tidy(std::size_t most) override;
+  Result<std::vector<Keyframe>> keyframes() override;
+  Result<void> chunks(std::uint64_t seq,
+                      const std::function<Result<void>(ChunkState)>& take) override;
+  Result<std::vector<AuthorState>> authors() override;
+
+ private:
+  [[nodiscard]] Result<void> connect(Database::Mode mode);
+  [[nodiscard]] Result<void> to_write();
+  [[nodiscard]] Result<void> to_read();
+  [[nodiscard]] Result<void> write(const std::function<Result<void>()>& work);
+  [[nodiscard]] Result<std::uint64_t> newest() { return newest_keyframe(*database_); }
+  [[nodiscard]] Failure look_again(Failure failure);
+  void witness();
+  void close();
+
+  std::filesystem::path path_;
+  Access access_;
+  Identity identity_;
+  bool known_ = false;  // identity_ has been read
+  std::optional<Database> database_;
+  bool writing_ = false;  // database_ can be written to, and nothing about it is in doubt
+  LogEnd end_;
+  std::optional<TipFile> tip_;
+  MapTidying tidying_;
+};
+
+Result<void> MapFile::connect(Database::Mode mode) {
+  database_.reset();
+  writing_ = false;
+  auto database = Database::open(path_, path_.string(), mode);
+  if (!database) return tl::unexpected<Failure>(std::move(database.error()));
+  if (auto checked = check_map_schema(*database); !checked) return checked;
+  auto identity = read_identity(*database);
+  if (!identity) return tl::unexpected<Failure>(std::move(identity.error()));
+  if (known_ && *identity != identity_)
+    return database->damaged("meta", 0, "the file was replaced by another map's");
+  const auto tip = read_tip(tip_path(path_));
+  if (!tip) return tl::unexpected<Failure>(tip.error());
+  auto end = find_end(*database, *tip);
+  if (access_ == Access::write) {
+    if (!end) return tl::unexpected<Failure>(std::move(end.error()));
+    if (auto checked = check_end(*database, *end, *tip); !checked) return checked;
+  }
+  identity_ = std::move(*identity);
+  known_ = true;
+  end_ = end.value_or(LogEnd{.promised = *tip ? (*tip)->seq : 0});
+  database_.emplace(std::move(*database));
+  writing_ = mode == Database::Mode::write;
+  return {};
+}
+
+// Without room, or where nothing may be written, a map can still be looked at.
+Result<void> MapFile::open() {
+  if (access_ == Access::read) return connect(Database::Mode::read);
+  auto connected = connect(Database::Mode::write);
+  if (connected) return connected;
+  const Code code = connected.error().code;
+  if (code != Code::disk_full && code != Code::read_only) return connected;
+  return connect(Database::Mode::read);
+}
+
+Result<void> MapFile::to_write() {
+  if (access_ == Access::read)
+    return fail(Code::read_only, path_.string() + ": opened for reading only");
+  if (writing_) return {};
+  auto connected = connect(Database::Mode::write);
+  if (!connected && !database_)
+    if (auto reading = connect(Database::Mode::read); !reading) return reading;
+  return connected;
+}
+
+Result<void> MapFile::to_read() {
+  if (database_) return {};
+  return open();
+}
+
+/// After a failure in writing: when what became of it is not known, only reading the file anew
+/// tells. Where even that fails the next call begins with it.
+Failure MapFile::look_again(Failure failure) {
+  if (!database_->doubtful()) return failure;
+  if (connect(Database::Mode::write) &&
+      database_->execute("PRAGMA wal_checkpoint(TRUNCATE)").has_value())
+    return failure;
+  writing_ = false;
+  return failure;
+}
+
+Result<void> MapFile::write(const std::function<Result<void>()>& work) {
+  auto done = database_->transact(work);
+  if (!done) return tl::unexpected<Failure>(look_again(std::move(done.error())));
+  return done;
+}
+
+void MapFile::witness() {
+  if (tip_) tip_->write({.seq = end_.seq, .hash = end_.hash});
+}
+
+// The tip stays when the write-ahead file does: it may be needed then.
+void MapFile::close() {
+  const bool settled = database_ && writing_;
+  database_.reset();
+  tip_.reset();
+  std::error_code none;
+  if (!settled || std::filesystem::exists(path_.string() + "-wal", none)) return;
+  static_cast<void>(remove_file(tip_path(path_)));  // an older tip is true as well
+}
+
+Result<void> MapFile::append(std::uint64_t expected_seq, std::span<const Event> events) {
+  if (auto ready = to_write(); !ready) return ready;
+  if (end_.seq != expected_seq)
+    return fail(Code::bad_state, path_.string() + ": the last event is " +
+                                     std::to_string(end_.seq) + ", not " +
+                                     std::to_string(expected_seq));
+  if (!tip_) {
+    auto tip = TipFile::open(tip_path(path_), {.seq = end_.seq, .hash = end_.hash});
+    if (!tip) return tl::unexpected<Failure>(std::move(tip.error()));
+    tip_.emplace(std::move(*tip));
+  }
+  const LogEnd after{
+      .seq = events.back().seq, .promised = events.back().seq, .hash = events.back().hash};
+  auto done = write([&] { return append_batch(*database_, expected_seq, events); });
+  const bool there_after_all =
+      !done && writing_ && end_.seq == after.seq && end_.hash == after.hash;
+  if (!done && !there_after_all) return done;
+  end_ = after;
+  witness();
+  return {};
+}
+
+Result<std::vector<Event>> MapFile::events(std::uint64_t from_seq, std::size_t most_bytes) {
+  if (auto ready = to_read(); !ready) return tl::unexpected<Failure>(std::move(ready.error()));
+  from_seq = std::max<std::uint64_t>(from_seq, 1);
+  if (from_seq > end_.promised) return std::vector<Event>{};
+  if (from_seq > end_.seq)
+    return database_->damaged("events", from_seq,
+                              "missing; there were events up to " + std::to_string(end_.promised));
+  return read_log(*database_, from_seq, most_bytes);
+}
+
+Result<void> MapFile::put_chunks(std::span<const ChunkState> states) {
+  if (auto ready = to_write(); !ready) return ready;
+  const auto since = newest();
+  if (!since) return tl::unexpected<Failure>(since.error());
+  for (const ChunkState& state : states)
+    if (state.seq <= *since || state.seq > end_.seq)
+      return fail(Code::bad_state, "a chunk's state of event " + std::to_string(state.seq) +
+                                       " belongs to no keyframe to come");
+  return write([&] { return put_chunk_rows(*database_, states); });
+}
+
+Result<void> MapFile::put_authors(std::span<const AuthorState> authors) {
+  if (auto ready = to_write(); !ready) return ready;
+  return write([&] { return put_author_rows(*database_, authors); });
+}
+
+Result<void> MapFile::put_keyframe(const Keyframe& keyframe) {
+  if (auto ready = to_write(); !ready) return ready;
+  const auto since = newest();
+  if (!since) return tl::unexpected<Failure>(since.error());
+  if (keyframe.seq <= *since || keyframe.seq > end_.seq)
+    return fail(Code::bad_state, "a keyframe of event " + std::to_string(keyframe.seq) +
+                                     " cannot follow that of " + std::to_string(*since));
+  auto done = write([&] { return put_keyframe_row(*database_, keyframe); });
+  if (done || !writing_) return done;
+  const auto found = newest();
+  return found && *found == keyframe.seq ? Result<void>() : done;
+}
+
+Result<bool> MapFile::tidy(std::size_t most) {
+  if (auto ready = to_write(); !ready) return tl::unexpected<Failure>(std::move(ready.error()));
+  auto done = tidying_.run(*database_, std::max<std::size_t>(most, 1));
+  if (!done) return tl::unexpected<Failure>(look_again(std::move(done.error())));
+  return done;
+}
+
+Result<std::vector<Keyframe>> MapFile::keyframes() {
+  if (auto ready = to_read(); !ready) return tl::unexpected<Failure>(std::move(ready.error()));
+  auto all = read_keyframes(*database_);
+  if (all && !all->empty() && all->back().seq > end_.promised)
+    return database_->damaged("keyframes", all->back().seq, "beyond the last event");
+  return all;
+}
+
+Result<void> MapFile::chunks(std::uint64_t seq,
+                             const std::function<Result<void>(ChunkState)>& take) {
+  if (auto ready = to_read(); !ready) return ready;
+  return read_chunks(*database_, identity_.settings.chunk_resolution, seq, take);
+}
+
+Result<std::vector<AuthorState>> MapFile::authors() {
+  if (auto ready = to_read(); !ready) return tl::unexpected<Failure>(std::move(ready.error()));
+  return read_authors(*database_);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Journal>> open_map_file(const std::filesystem::path& path, Access access) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    return fail(Code::unknown_map, path.string() + ": there is no such file");
+  if (status.type() != std::filesystem::file_type::regular)
+    return fail(error ? Code::storage_failed : Code::damaged,
+                path.string() + ": not an ordinary file");
+  auto file = std::make_unique<MapFile>(path, access);
+  if (auto opened = file->open(); !opened)
+    return tl::unexpected<Failure>(std::move(opened.error()));
+  return file;
+}
+
+}  // namespace earthwork::journal

@@ -1,0 +1,256 @@
+#include "server/journal/map_log.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "protocol/chunk_record.hpp"
+#include "protocol/json_text.hpp"
+#include "server/journal/stored_sum.hpp"
+
+namespace earthwork::journal {
+namespace {
+
+using history::Event;
+using protocol::Code;
+using protocol::fail;
+using protocol::Failure;
+using protocol::Result;
+
+constexpr std::size_t kMaxCommandBytes = std::size_t{1} << 20;
+constexpr std::size_t kEventBytes = 48;  // of a row beside its command, its batch included
+constexpr const char* kInsertBatch = "INSERT INTO batches VALUES(?, ?, ?)";
+
+/// A row of events before its command is understood.
+struct EventRow {
+  Event event;
+  std::string_view command;
+};
+
+struct BatchRow {
+  std::uint64_t first = 0, last = 0, sum = 0;
+};
+
+/// The sum of a batch, over its events in order.
+class BatchSum {
+ public:
+  void add(const Event& event, std::string_view command) {
+    sum_.add(event.seq).add(event.time_ms).add(event.author).add(event.id).add(command);
+    sum_.add(event.hash);
+  }
+  std::uint64_t value() const { return sum_.value(); }
+
+ private:
+  StoredSum sum_;
+};
+
+std::string command_of(const protocol::Edit& edit) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  protocol::write_edit(edit, json);
+  return json.dump();
+}
+
+Result<protocol::Edit> read_command(const Database& database, std::uint64_t seq,
+                                    std::string_view command) {
+  const auto json = protocol::parse_json(command, kMaxCommandBytes);
+  if (!json) return database.damaged("events", seq, "command: " + json.error().detail);
+  if (json->is_object() && json->contains("kind") && (*json)["kind"] != "edit")
+    return fail(Code::bad_version, database.name() + ": events: seq " + std::to_string(seq) +
+                                       ": a command of a kind that this program does not know");
+  auto edit = protocol::read_edit(*json);
+  if (!edit) return database.damaged("events", seq, "command: " + edit.error().detail);
+  return edit;
+}
+
+/// Rows of events from a seq on, which must have no gap.
+class EventRows {
+ public:
+  EventRows(const Database& database, std::uint64_t from)
+      : database_(database),
+        rows_(database, "events",
+              "SELECT seq, time_ms, author, id, command, hash FROM events WHERE seq >= ? "
+              "ORDER BY seq"),
+        next_(from) {
+    rows_.begin(from);
+  }
+
+  Result<EventRow> next() {
+    const auto row = rows_.next();
+    if (!row) return tl::unexpected<Failure>(row.error());
+    const std::uint64_t seq = next_++;
+    if (!*row || !rows_.row_is("iiiiti") || rows_.number(0) != seq)
+      return database_.damaged("events", seq, "the row is missing, or is none of ours");
+    return EventRow{.event = {.seq = seq,
+                              .time_ms = rows_.integer(1),
+                              .author = rows_.number(2),
+                              .id = rows_.integer(3),
+                              .edit = {},
+                              .hash = rows_.number(5)},
+                    .command = rows_.text(4)};
+  }
+
+ private:
+  const Database& database_;
+  Statement rows_;
+  std::uint64_t next_;
+};
+
+/// The batch that holds `seq`.
+Result<BatchRow> find_batch(const Database& database, std::uint64_t seq) {
+  Statement find(database, "batches",
+                 "SELECT first_seq, last_seq, sum FROM batches WHERE first_seq <= ? "
+                 "ORDER BY first_seq DESC LIMIT 1");
+  const auto row = find.begin(seq).next();
+  if (!row) return tl::unexpected<Failure>(row.error());
+  const BatchRow batch =
+      *row && find.row_is("iii")
+          ? BatchRow{.first = find.number(0), .last = find.number(1), .sum = find.number(2)}
+          : BatchRow{};
+  if (batch.first == 0 || batch.first > seq || batch.last < seq)
+    return database.damaged("batches", seq, "no batch holds it");
+  return batch;
+}
+
+/// What a page has room for.
+struct Page {
+  std::uint64_t from = 0;
+  std::size_t most_bytes = 0, bytes = 0;
+  bool full = false;
+  std::vector<Event> events;
+
+  bool takes(const EventRow& row) {
+    bytes += kEventBytes + row.command.size();
+    full = full || (bytes > most_bytes && !events.empty());
+    return !full;
+  }
+};
+
+/// Reads all of a batch and compares its sum; what is on the page stays only if that is right.
+Result<void> read_batch(const Database& database, const BatchRow& batch, EventRows& rows,
+                        Page& page) {
+  BatchSum sum;
+  for (std::uint64_t seq = batch.first; seq <= batch.last; ++seq) {
+    auto row = rows.next();
+    if (!row) return tl::unexpected<Failure>(std::move(row.error()));
+    sum.add(row->event, row->command);
+    if (seq < page.from || page.full || !page.takes(*row)) continue;
+    auto edit = read_command(database, seq, row->command);
+    if (!edit) return tl::unexpected<Failure>(std::move(edit.error()));
+    row->event.edit = std::move(*edit);
+    page.events.push_back(std::move(row->event));
+  }
+  if (sum.value() == batch.sum) return {};
+  return database.damaged("batches", batch.first,
+                          "the sum of events up to " + std::to_string(batch.last) + " is another");
+}
+
+Result<std::uint64_t> last_of(Database& database, const char* table, const char* sql) {
+  Statement last(database, table, sql);
+  const auto row = last.begin().next();
+  if (!row) return tl::unexpected<Failure>(row.error());
+  if (!*row) return 0;
+  if (!last.row_is("i") || last.integer(0) < 1)
+    return database.damaged(table, 0, "the last seq is not a positive integer");
+  return last.number(0);
+}
+
+}  // namespace
+
+Result<void> append_batch(Database& database, std::uint64_t expected_seq,
+                          std::span<const Event> events) {
+  const auto last = last_event_seq(database);
+  if (!last) return tl::unexpected<Failure>(last.error());
+  if (*last != expected_seq)
+    return fail(Code::bad_state, database.name() + ": the last event is " + std::to_string(*last) +
+                                     ", not " + std::to_string(expected_seq));
+  Statement insert(database, "events", "INSERT INTO events VALUES(?, ?, ?, ?, ?, ?)");
+  BatchSum sum;
+  std::uint64_t seq = expected_seq;
+  for (const Event& event : events) {
+    assert(event.seq == seq + 1);
+    seq = event.seq;
+    const std::string command = command_of(event.edit);
+    if (auto done = insert.run(event.seq, event.time_ms, event.author, event.id,
+                               std::string_view(command), event.hash);
+        !done)
+      return done;
+    sum.add(event, command);
+  }
+  return Statement(database, "batches", kInsertBatch).run(expected_seq + 1, seq, sum.value());
+}
+
+Result<std::uint64_t> last_event_seq(Database& database) {
+  return last_of(database, "events", "SELECT seq FROM events ORDER BY seq DESC LIMIT 1");
+}
+
+Result<std::uint64_t> last_batch_seq(Database& database) {
+  return last_of(database, "batches",
+                 "SELECT last_seq FROM batches ORDER BY first_seq DESC LIMIT 1");
+}
+
+Result<std::optional<std::uint64_t>> event_hash(Database& database, std::uint64_t seq) {
+  Statement find(database, "events", "SELECT hash FROM events WHERE seq = ?");
+  const auto row = find.begin(seq).next();
+  if (!row) return tl::unexpected<Failure>(row.error());
+  if (!*row || !find.row_is("i")) return std::nullopt;
+  return find.number(0);
+}
+
+Result<std::vector<Event>> read_log(Database& database, std::uint64_t from_seq,
+                                    std::size_t most_bytes) {
+  auto batch = find_batch(database, from_seq);
+  if (!batch) return tl::unexpected<Failure>(std::move(batch.error()));
+  const auto last = last_event_seq(database);
+  if (!last) return tl::unexpected<Failure>(last.error());
+  Page page{.from = from_seq, .most_bytes = most_bytes, .events = {}};
+  EventRows rows(database, batch->first);
+  for (;;) {
+    const std::size_t sound = page.events.size();
+    auto read = read_batch(database, *batch, rows, page);
+    if (read && (page.full || batch->last >= *last)) return std::move(page.events);
+    const std::uint64_t next = batch->last + 1;
+    if (read) {
+      batch = find_batch(database, next);
+      if (batch && batch->first == next) continue;
+      read = batch ? database.damaged("batches", next, "the batch before it ends elsewhere")
+                   : Result<void>(tl::unexpected<Failure>(std::move(batch.error())));
+    } else {
+      page.events.resize(sound);
+    }
+    if (page.events.empty()) return tl::unexpected<Failure>(std::move(read.error()));
+    return std::move(page.events);
+  }
+}
+
+Result<void> cut_log(Database& database, std::uint64_t seq) {
+  const auto last = last_event_seq(database);
+  if (!last) return tl::unexpected<Failure>(last.error());
+  if (*last <= seq) return {};
+  std::optional<BatchRow> rest;
+  if (seq > 0) {
+    auto batch = find_batch(database, seq);
+    if (!batch) return tl::unexpected<Failure>(std::move(batch.error()));
+    EventRows checked(database, batch->first), kept(database, batch->first);
+    Page none{.full = true, .events = {}};
+    if (auto sound = read_batch(database, *batch, checked, none); !sound) return sound;
+    BatchSum sum;
+    for (std::uint64_t at = batch->first; at <= seq; ++at) {
+      const auto row = kept.next();
+      if (!row) return tl::unexpected<Failure>(row.error());
+      sum.add(row->event, row->command);
+    }
+    rest = {.first = batch->first, .last = seq, .sum = sum.value()};
+  }
+  const std::uint64_t first_gone = rest ? rest->first : 1;
+  if (auto d = Statement(database, "events", "DELETE FROM events WHERE seq > ?").run(seq); !d)
+    return d;
+  if (auto d = Statement(database, "batches", "DELETE FROM batches WHERE first_seq >= ?")
+                   .run(first_gone);
+      !d || !rest)
+    return d;
+  return Statement(database, "batches", kInsertBatch).run(rest->first, rest->last, rest->sum);
+}
+
+}  // namespace earthwork::journal
