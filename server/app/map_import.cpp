@@ -13,6 +13,7 @@
 #include "server/app/line_reader.hpp"
 #include "server/app/recorded_events.hpp"
 #include "server/app/stored_map.hpp"
+#include "server/journal/durable_files.hpp"
 #include "server/journal/execution.hpp"
 #include "server/journal/map_file.hpp"
 #include "server/journal/whole_keyframe.hpp"
@@ -74,23 +75,17 @@ Result<protocol::RecordingHead> read_head(LineReader& lines) {
       [&lines](Failure failure) { return at_line(lines.number(), std::move(failure)).value(); });
 }
 
-/// A map file under a name that no map has; gone at the end. One that an import left that was
-/// killed is removed first.
+/// A map file under a name that no map has; gone at the end. What a kill leaves of it goes when the
+/// directory is opened again.
 class Draft {
  public:
-  explicit Draft(const std::filesystem::path& place)
-      : path_(place.parent_path() / ("." + place.filename().string() + ".import")) {
-    remove();
-  }
-  ~Draft() { remove(); }
+  explicit Draft(const std::filesystem::path& place) : path_(journal::unfinished_path(place)) {}
+  ~Draft() { [[maybe_unused]] const auto nobody_minds = journal::remove_map_file(path_); }
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  void remove() const {
-    [[maybe_unused]] const auto nobody_minds = journal::remove_map_file(path_);
-  }
   std::filesystem::path path_;
 };
 

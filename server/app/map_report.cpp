@@ -62,6 +62,13 @@ ordered_json described(const StoredMap& stored, std::uint64_t events,
           {"keyframes", std::move(seqs)}};
 }
 
+/// A server also looks at what lies beside the file. To open a sound one for it changes nothing
+/// that a server would not.
+void try_to_serve(const std::filesystem::path& path, journal::Audit& audit) {
+  const auto opened = journal::open_map_file(path, journal::Access::write);
+  if (!opened && opened.error().code == Code::damaged) audit.findings.push_back(opened.error());
+}
+
 /// Says on stderr what of a damaged map can still be had.
 void tell_what_is_left(const std::string& name, const journal::Audit& audit) {
   for (const protocol::Failure& finding : audit.findings) warn("damaged: " + finding.detail);
@@ -114,7 +121,7 @@ int hash_map(const MapFlags& flags) {
 }
 
 int verify_map(const MapFlags& flags) {
-  const auto stored = open_stored_map(flags);
+  auto stored = open_stored_map(flags);
   if (!stored && stored.error().code == Code::damaged) {
     warn("damaged: " + stored.error().detail);
     journal::Audit nothing;
@@ -122,8 +129,10 @@ int verify_map(const MapFlags& flags) {
     return answer_audit(flags.name, nothing);
   }
   if (!stored) return refuse(stored.error());
-  const auto audit = journal::audit(*stored->journal);
+  auto audit = journal::audit(*stored->journal);
   if (!audit) return refuse(audit.error());
+  stored->journal.reset();
+  if (audit->sound()) try_to_serve(stored->path, *audit);
   if (!audit->sound()) tell_what_is_left(stored->name, *audit);
   return answer_audit(stored->name, *audit);
 }
