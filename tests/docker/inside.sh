@@ -35,5 +35,6 @@ earthwork-bot watch "${to[@]}" --until-seq 1 || fail "the bot cannot watch"
 kill -TERM "$server"
 wait "$server" || fail "the server did not end well"
 server=
+[ -s /var/lib/earthwork/mine.earthwork ] || fail "the map is not in the volume"
 ! earthwork-health "$port" 2>/dev/null || fail "a server that ended is healthy"
 echo "served, painted, watched and stopped"

@@ -40,6 +40,8 @@ case $(get /api/maps/demo) in
   *) fail "it does not serve the map demo" ;;
 esac
 
+[ -s earthwork-data/demo.earthwork ] || fail "it keeps no map in the folder it was started in"
+
 kill -TERM "$server"
 stopped=$SECONDS
 status=0
