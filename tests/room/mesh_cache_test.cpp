@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "server/history/fold.hpp"
@@ -26,7 +28,7 @@ struct Painted {
     ++seq;
   }
   void make(const voxel::ChunkKey& key) {
-    cache.put(key, maker.make(key, map.neighbourhood(key), 8, cache.find(key), seq));
+    cache.put(key, maker.make(key, map.neighbourhood(key), 8, cache.forerunner(key, seq)));
   }
   void make_some(std::size_t most) {
     for (const voxel::ChunkKey& key : cache.some_stale(most)) make(key);
@@ -117,6 +119,128 @@ TEST(MeshCache, HasNeverHeardOfWhatCameAndWentUnseen) {
   EXPECT_EQ(p.at(0, 0), nullptr);
 }
 
+/// A map of three discs, the last of which is gone again, as it is after a start.
+struct RestoredCache : testing::Test, Painted {
+  RestoredCache() {
+    for (const protocol::Edit& edit :
+         {disc(4.5, 4.5, 2), disc(36.5, 4.5, 2), disc(68.5, 4.5, 2), disc(68.5, 4.5, 4, false)})
+      history::apply(map, edit);
+    seq = 10;
+    cache.restore(map, ages);
+  }
+  std::uint64_t revision(std::int32_t x, std::int32_t y) const {
+    return cache.forerunner({0, x, y}, 10).revision;
+  }
+  std::vector<journal::ChunkAge> ages{{{0, 0, 0}, 1}, {{0, 4, 0}, 2}, {{0, 8, 0}, 4}};
+};
+
+TEST_F(RestoredCache, AMeshIsAsOldAsTheYoungestThatItsCellsReachInto) {
+  ages.push_back({{0, 1, 1}, 6});
+  MeshCache other;
+  other.restore(map, ages);
+  const auto age = [&](std::int32_t x, std::int32_t y) {
+    return other.forerunner({0, x, y}, 10).revision;
+  };
+  EXPECT_EQ(age(0, 0), 6u);  // upper right of it
+  EXPECT_EQ(age(1, 0), 6u);
+  EXPECT_EQ(age(0, 1), 6u);
+  EXPECT_EQ(age(1, 1), 6u);
+  EXPECT_EQ(age(-1, 0), 1u);
+  EXPECT_EQ(age(0, -1), 1u);
+  EXPECT_EQ(age(-1, -1), 1u);
+  EXPECT_EQ(age(2, 0), 10u);  // reaches into none: nothing is known of it
+  EXPECT_FALSE(other.stale({0, 2, 0}));
+  EXPECT_TRUE(other.stale({0, -1, -1}));
+}
+
+TEST_F(RestoredCache, NothingIsMadeYetAndOnlyWhatMayHaveAMeshCounts) {
+  EXPECT_EQ(cache.totals(), MeshTotals{});
+  EXPECT_TRUE(cache.may_have_mesh({0, 0, 0}));
+  EXPECT_FALSE(cache.may_have_mesh({0, -1, 0}));  // the disc does not reach there
+  EXPECT_FALSE(cache.may_have_mesh({0, 8, 0}));
+  EXPECT_EQ(cache.count(), 2u);
+  EXPECT_EQ(cache.stale_count(), 12u);
+  EXPECT_EQ(cache.keys().size(), 12u);  // whoever claims to have them must hear of the others
+  make_some(12);
+  EXPECT_EQ(cache.count(), 2u);
+  EXPECT_EQ(cache.totals().chunks, 2u);
+}
+
+TEST_F(RestoredCache, ANeighbourThatIsReachedIntoMayHaveAMesh) {
+  for (const auto& [edit, x, y] : {std::tuple{box(16.5, 20.5, 0.25), 1, 2},
+                                   {box(20.5, 16.5, 0.25), 2, 1},
+                                   {box(16.5, 16.5, 0.25), 1, 1}}) {
+    voxel::Map one = history::make_map({.chunk_resolution = 8, .chunks = {}});
+    history::apply(one, edit);
+    std::vector<journal::ChunkAge> all;
+    for (const voxel::ChunkKey& key : one.keys()) all.push_back({key, 1});
+    MeshCache restored;
+    restored.restore(one, all);
+    EXPECT_TRUE(restored.may_have_mesh({0, x, y})) << x << ", " << y;
+    std::size_t with_mesh = 0;
+    for (const voxel::ChunkKey& key : restored.keys())
+      with_mesh += maker.make(key, one.neighbourhood(key), 8, {}).has_value();
+    EXPECT_EQ(restored.count(), with_mesh);
+  }
+}
+
+TEST_F(RestoredCache, WhatIsMadeIsAsOldAsItIs) {
+  EXPECT_EQ(at(0, 0)->revision, 1u);
+  EXPECT_EQ(decoded(at(0, 0)->bytes).revision, 1u);
+  EXPECT_EQ(at(4, 0)->revision, 2u);
+  edit(disc(4.5, 4.5, 2.5));  // event 11
+  EXPECT_EQ(at(0, 0)->revision, 11u);
+  EXPECT_EQ(at(0, 0)->base_revision, 1u);
+}
+
+TEST_F(RestoredCache, WhatIsGoneIsToldAsOldAsThatIs) {
+  ASSERT_NE(at(8, 0), nullptr);
+  EXPECT_TRUE(at(8, 0)->removed);
+  EXPECT_EQ(at(8, 0)->revision, 4u);
+  ASSERT_NE(at(7, 0), nullptr);  // may have had one
+  EXPECT_TRUE(at(7, 0)->removed);
+  EXPECT_EQ(at(9, 0), nullptr);
+}
+
+TEST_F(RestoredCache, WhatIsTouchedBeforeItIsMadeIsNew) {
+  edit(disc(4.5, 4.5, 4, false));
+  edit(disc(68.5, 4.5, 1));
+  EXPECT_TRUE(cache.may_have_mesh({0, 8, 0}));
+  EXPECT_TRUE(at(0, 0)->removed);
+  EXPECT_EQ(at(0, 0)->revision, 12u);
+  EXPECT_FALSE(at(8, 0)->removed);
+  EXPECT_EQ(at(8, 0)->revision, 12u);
+  EXPECT_FALSE(at(8, 0)->delta);  // what somebody has of it is not known here
+}
+
+TEST_F(RestoredCache, NothingIsBeyondTheBounds) {
+  voxel::Map bounded = history::make_map({.chunk_resolution = 8, .chunks = {{0, 0, 4, 4}}});
+  MeshCache restored;
+  restored.restore(bounded, std::vector<journal::ChunkAge>{{{0, 0, 0}, 1}});
+  EXPECT_EQ(restored.keys(), (std::vector<voxel::ChunkKey>{{0, 0, 0, 0}}));
+}
+
+TEST_F(RestoredCache, WhatIsTakenBackIsAsItWas) {
+  const RecordBytes seen = at(0, 0)->bytes;
+  const Forerunner made = cache.forerunner({0, 0, 0}, 10), unmade = cache.forerunner({0, 8, 0}, 10);
+  voxel::Map before = map;
+  edit(disc(4.5, 4.5, 3)), edit(disc(68.5, 4.5, 2));
+  at(0, 0), at(8, 0);
+  map = std::move(before), seq = 10;
+  cache.take_back({0, 0, 0}, made), cache.take_back({0, 8, 0}, unmade);
+  EXPECT_TRUE(cache.stale({0, 0, 0}));
+  EXPECT_EQ(at(0, 0)->bytes, seen);
+  EXPECT_EQ(at(0, 0)->revision, 1u);
+  EXPECT_TRUE(at(8, 0)->removed);
+  EXPECT_LE(at(8, 0)->revision, 10u);
+  make_some(99);
+  MeshCache fresh;
+  for (const auto& key : map.meshed_keys())
+    fresh.put(key, maker.make(key, map.neighbourhood(key), 8, fresh.forerunner(key, 1)));
+  EXPECT_EQ(cache.totals().hash, fresh.totals().hash);
+  EXPECT_EQ(cache.totals().chunks, fresh.totals().chunks);
+}
+
 /// However edits and questions alternate, the totals are those of a cache that starts anew.
 TEST(MeshCache, EndsAsIfEverythingWereMeshedOnce) {
   EXPECT_TRUE(rc::check([] {
@@ -132,7 +256,7 @@ TEST(MeshCache, EndsAsIfEverythingWereMeshedOnce) {
 
     MeshCache fresh;
     for (const auto& key : p.map.meshed_keys())
-      fresh.put(key, p.maker.make(key, p.map.neighbourhood(key), 8, nullptr, 1));
+      fresh.put(key, p.maker.make(key, p.map.neighbourhood(key), 8, fresh.forerunner(key, 1)));
     RC_ASSERT(p.cache.totals().hash == fresh.totals().hash);
     RC_ASSERT(p.cache.totals().triangles == fresh.totals().triangles);
     RC_ASSERT(p.cache.totals().bytes == fresh.totals().bytes);

@@ -9,6 +9,7 @@
 #include <future>
 #include <memory>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -49,7 +50,7 @@ struct MeshRoundTest : testing::Test {
     MeshCache fresh;
     MeshMaker maker(135);
     for (const voxel::ChunkKey& key : map.meshed_keys())
-      fresh.put(key, maker.make(key, map.neighbourhood(key), 8, nullptr, 1));
+      fresh.put(key, maker.make(key, map.neighbourhood(key), 8, fresh.forerunner(key, 1)));
     return fresh.totals().hash;
   }
 
@@ -103,6 +104,21 @@ TEST_F(MeshRoundTest, LeavesAnUnchangedMeshItsRevision) {
   EXPECT_EQ(cache.find({0, 1, 1})->revision, 1u);
   EXPECT_EQ(cache.find({0, 4, 4})->revision, 2u);
   EXPECT_EQ(cache.totals().hash, true_hash());
+}
+
+TEST_F(MeshRoundTest, AMeshFromBeforeAStartKeepsItsAge) {
+  std::vector<journal::ChunkAge> ages;
+  for (const voxel::ChunkKey& key : map.keys()) ages.push_back({key, 7});
+  cache.restore(map, ages);
+  seq = 20;
+  const std::vector<voxel::ChunkKey> keys{{0, 3, 3}, {0, 4, 4}};
+  cache.mark_stale(std::span(keys).last(1));
+  const auto round = std::make_shared<MeshRound>(map, cache, keys, seq);
+  round->start(by_hand(), makers(1), meters, [] {});
+  context.run();
+  (void)round->finish(cache);
+  EXPECT_EQ(cache.find({0, 3, 3})->revision, 7u);
+  EXPECT_EQ(cache.find({0, 4, 4})->revision, 20u);
 }
 
 TEST_F(MeshRoundTest, CanBeHelpedToItsEnd) {
