@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace earthwork::room {
@@ -13,17 +13,6 @@ MeshTotals contribution(const CachedMesh& cached) {
   return {cached.hash_term, 1, cached.triangles, cached.vertices, cached.bytes->size()};
 }
 
-/// Something in it is filled where the cells of a chunk reach into it: of the chunk itself, of the
-/// one to its left, below, or below left.
-bool shows(const voxel::Chunk& chunk, bool left, bool below) {
-  if (left && below) return chunk.filled(0, 0);
-  if (below) return chunk.row(0) != 0;
-  if (!left) return true;
-  for (int y = 0; y < chunk.resolution(); ++y)
-    if (chunk.filled(0, y)) return true;
-  return false;
-}
-
 }  // namespace
 
 const CachedMesh* MeshCache::find(const voxel::ChunkKey& key) const {
@@ -31,24 +20,30 @@ const CachedMesh* MeshCache::find(const voxel::ChunkKey& key) const {
   return found == meshes_.end() ? nullptr : &found->second;
 }
 
-// The cells of a chunk reach into the chunks to its right, above and above right. So the mesh of
-// each of these four was last different by an event not after the age of the youngest it reaches.
+// The cells of a chunk reach into the chunks to its right, above and above right. So its mesh was
+// last another one by an event that is not after the age of the youngest of the four. It has a mesh
+// only when the map keeps the chunk itself, whose edges lead to what is filled to its right or
+// above; or when the one voxel is filled above right that no edge of it leads to.
 void MeshCache::restore(const voxel::Map& map, std::span<const journal::ChunkAge> ages) {
   assert(stale_.empty() && meshes_.empty());
   const voxel::ChunkRect extent = map.grid().extent();
   stale_.reserve(ages.size() + ages.size() / 4);
   for (const auto& [key, seq] : ages) {
     const voxel::Chunk* chunk = map.find(key);
-    for (const auto& [left, below] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-      const voxel::ChunkKey reaching{key.layer, key.x - left, key.y - below, key.z};
+    const bool corner = chunk && chunk->filled(0, 0);
+    for (const auto& [dx, dy, shows] :
+         {std::tuple{0, 0, chunk != nullptr}, {-1, 0, false}, {0, -1, false}, {-1, -1, corner}}) {
+      const voxel::ChunkKey reaching{key.layer, key.x + dx, key.y + dy, key.z};
       if (!extent.contains(reaching.x, reaching.y)) continue;
       const auto [place, first] = stale_.try_emplace(reaching);
       Stale& stale = place->second;
-      if (first) stale = {.seen_unknown = true, .bare = true}, ++bare_;
+      if (first) stale.seen_unknown = stale.bare = true;
       stale.revision = std::max(stale.revision, seq);
-      if (stale.bare && chunk && shows(*chunk, left != 0, below != 0)) stale.bare = false, --bare_;
+      if (shows) stale.bare = false;
     }
   }
+  bare_ = static_cast<std::size_t>(std::count_if(
+      stale_.begin(), stale_.end(), [](const auto& entry) { return entry.second.bare; }));
 }
 
 void MeshCache::mark_stale(std::span<const voxel::ChunkKey> keys) {
