@@ -12,7 +12,9 @@
 
 namespace earthwork::app {
 
-inline constexpr std::size_t kImportBatch = 1024;  ///< Events an append, at most.
+/// Events an append, at most: enough that the disk is not what an import waits for, and few enough
+/// that little of a log is lost with a batch that is damaged later.
+inline constexpr std::size_t kImportBatch = 256;
 
 struct Imported {
   std::uint64_t seq = 0, hash = 0;

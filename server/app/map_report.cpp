@@ -70,15 +70,24 @@ void try_to_serve(const std::filesystem::path& path, journal::Audit& audit) {
 }
 
 /// Says on stderr what of a damaged map can still be had.
-void tell_what_is_left(const std::string& name, const journal::Audit& audit) {
-  for (const protocol::Failure& finding : audit.findings) warn("damaged: " + finding.detail);
-  warn("the log is good up to seq " + std::to_string(audit.events) + ": map export " + name +
-       " OUT --seq " + std::to_string(audit.events) + " still gives that");
+void tell_what_is_left(StoredMap& stored, const journal::Audit& audit) {
+  const std::string command = "map export " + stored.name + " OUT";
+  const std::string seq = std::to_string(audit.events);
+  warn("the log is good up to seq " + seq + ": " + command + " --seq " + seq + " still gives that");
+  const std::uint64_t last = stored.journal->last_seq();
+  if (audit.events == last) return;
+  const auto end = journal::restore(*stored.journal, last, journal::Trust::salvage);
+  if (end)
+    warn(command + " still gives seq " + std::to_string(last) + ", from keyframe " +
+         std::to_string(end->keyframe_seq) + " on");
 }
 
 int answer_audit(const std::string& name, const journal::Audit& audit) {
   ordered_json findings = ordered_json::array();
-  for (const protocol::Failure& finding : audit.findings) findings.push_back(finding.detail);
+  for (const protocol::Failure& finding : audit.findings) {
+    warn("damaged: " + finding.detail);
+    findings.push_back(finding.detail);
+  }
   const int answered = answer({{"name", name},
                                {"events", audit.events},
                                {"hash", hex(audit.hash)},
@@ -123,7 +132,6 @@ int hash_map(const MapFlags& flags) {
 int verify_map(const MapFlags& flags) {
   auto stored = open_stored_map(flags);
   if (!stored && stored.error().code == Code::damaged) {
-    warn("damaged: " + stored.error().detail);
     journal::Audit nothing;
     nothing.findings.push_back(stored.error());
     return answer_audit(flags.name, nothing);
@@ -131,9 +139,13 @@ int verify_map(const MapFlags& flags) {
   if (!stored) return refuse(stored.error());
   auto audit = journal::audit(*stored->journal);
   if (!audit) return refuse(audit.error());
+  if (!audit->sound()) {
+    const int damaged = answer_audit(stored->name, *audit);
+    tell_what_is_left(*stored, *audit);
+    return damaged;
+  }
   stored->journal.reset();
-  if (audit->sound()) try_to_serve(stored->path, *audit);
-  if (!audit->sound()) tell_what_is_left(stored->name, *audit);
+  try_to_serve(stored->path, *audit);
   return answer_audit(stored->name, *audit);
 }
 
