@@ -1,6 +1,48 @@
 /// A map as one ordinary file: SQLite, in tables that the sqlite3 shell shows.
 ///
-/// (The format's specification stands here: see the tables below.)
+/// application_id is 0x45576D70 ("EWmp"), user_version is the format, 1; the file is in WAL mode,
+/// its texts are UTF-8. 64-bit numbers without sign (hashes, sums, authors) stand as SQLite's
+/// signed integers of the same bits; printf('%016x', hash) shows them as everywhere else. A sum is
+/// XXH3-64, seed 0, over the fields named, in that order: integers as 8 bytes, little-endian; texts
+/// and bytes after their length as such an integer.
+///
+/// meta(key, value)   texts. settings: JSON as protocol::write_settings gives it; epoch: 16 hex
+///     digits; created_ms: since 1970, decimal; sum: 16 hex digits, over key and value of the
+///     others in the order of their keys.
+/// events(seq, time_ms, author, id, command, hash)   seq 1, 2, 3 ... without gaps. command: the
+///     edit's fields as JSON, as protocol::write_edit gives them; a "kind" other than "edit" is for
+///     later versions. hash: the map's after the event.
+/// batches(first_seq, last_seq, sum)   what was committed together; batches follow each other
+/// without
+///     gaps and end with the last event. sum: over its events in order, of each one seq, time_ms,
+///     author, id, command, hash.
+/// keyframes(seq, map_hash, time_ms, chunks, digest, authors, sum)   map_hash: after event seq;
+///     time_ms: when it was made. chunks: how many chunks have a state up to seq; digest: the sums
+///     of the newest of each one's, XORed. authors: how many there were. sum: over the other
+///     columns. Kept are the newest one, and older ones from 65,536 events to the next.
+/// chunks(layer, place, seq, bytes, sum)   the state of a chunk since event seq or longer, up to
+/// the
+///     next row of the same layer and place, or the keyframe it was put for. place:
+///     chunk_place.hpp. bytes: voxel/chunk_bytes.hpp, none when there is nothing any more. sum:
+///     over the other columns. Rows after the newest keyframe are of one that was not finished;
+///     they count for nothing. chunks_by_seq is an index of them.
+/// authors(author, ids, sum)   ids: author_ids.hpp, up to the newest keyframe at least. sum: over
+/// the
+///     other columns.
+///
+/// For example, who painted how much, and what the last edits were:
+///     SELECT printf('%016x', author), count(*) FROM events GROUP BY author;
+///     SELECT seq, datetime(time_ms / 1000, 'unixepoch'), command->>'stencil', printf('%016x',
+///     hash)
+///       FROM events ORDER BY seq DESC LIMIT 5;
+/// Nothing but the log is needed: the last three tables can be emptied, and are made again. Other
+/// tables, indexes, views or triggers make it no map file.
+///
+/// While a map is open for writing, SQLite's NAME.earthwork-wal and -shm lie beside it, and
+/// NAME.earthwork-tip (tip_file.hpp). After a crash the -wal is part of the map. A tip that knows
+/// of more events than there are tells that acknowledged ones are missing; who wants to go on with
+/// what is there removes it. Downsides: a command is JSON, some 100 bytes an event, so that people
+/// can read it; the log is never shortened; and flipped bytes are found only when they are read.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +62,15 @@ inline constexpr const char* kMapFileSuffix = ".earthwork";
     const std::filesystem::path& path, const Identity& identity);
 
 enum class Access {
+  /// What has lost its end is not opened. Without room, or where nothing may be written, it is
+  /// opened
+  /// all the same; writing then fails until it can be done.
   write,
-  read,  ///< Changes nothing, not even what a crash has left beside the file.
+  /// Changes nothing, not even what a crash has left beside the file. A log that has lost its end
+  /// is
+  /// opened: last_seq() is the last that there was, as far as anything tells, and reading what is
+  /// missing fails with `damaged`.
+  read,
 };
 /// Fails with unknown_map where there is no file, with bad_version for another format or a later
 /// version of it, with `damaged` when it is no such file or what it needs to be read is not there.
