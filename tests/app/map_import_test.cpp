@@ -103,6 +103,15 @@ TEST(MapImport, GoesOverManyBatches) {
   EXPECT_EQ(made->journal->last_seq(), 2 * kImportBatch + 5);
 }
 
+TEST(MapImport, TakesTheRecordingOfTheSpecification) {
+  const std::string page = e2e::read_file(EARTHWORK_SOURCE_DIR "/protocol/README.md");
+  const std::string fence = "```json recording\n";
+  const auto start = page.find(fence) + fence.size();
+  const auto made = imported(page.substr(start, page.find("```", start) - start));
+  ASSERT_TRUE(made) << made.error().detail;
+  EXPECT_EQ(made->seq, 2u);
+}
+
 TEST(MapImport, OfSettingsAloneIsAnEmptyMap) {
   const auto made = imported(R"({"map":{}})");
   ASSERT_TRUE(made) << made.error().detail;
