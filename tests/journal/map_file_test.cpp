@@ -1,0 +1,368 @@
+// Map files: what survives reopening, what people find in them, and what is not one.
+#include "server/journal/map_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "protocol/chunk_record.hpp"
+#include "tests/journal/fault_vfs.hpp"
+#include "tests/journal/sample_log.hpp"
+
+namespace earthwork::journal {
+namespace {
+
+using protocol::Code;
+
+/// Another program's connection.
+class Shell {
+ public:
+  explicit Shell(const std::filesystem::path& path) {
+    EXPECT_EQ(sqlite3_open(path.c_str(), &db_), SQLITE_OK);
+  }
+  ~Shell() { sqlite3_close(db_); }
+  Shell(const Shell&) = delete;
+  Shell& operator=(const Shell&) = delete;
+
+  /// The columns of all rows, separated by blanks.
+  std::string run(const char* sql) {
+    std::string out;
+    const auto row = [](void* to, int columns, char** values, char**) {
+      for (int i = 0; i < columns; ++i) {
+        auto& text = *static_cast<std::string*>(to);
+        if (!text.empty()) text += ' ';
+        text += values[i] == nullptr ? "NULL" : values[i];
+      }
+      return 0;
+    };
+    EXPECT_EQ(sqlite3_exec(db_, sql, row, &out, nullptr), SQLITE_OK) << sqlite3_errmsg(db_);
+    return out;
+  }
+
+ private:
+  sqlite3* db_ = nullptr;
+};
+
+class MapFile : public testing::Test {
+ protected:
+  std::unique_ptr<Journal> create() { return create_map_file(path, sample_identity()).value(); }
+  std::unique_ptr<Journal> open(Access access = Access::write) {
+    auto opened = open_map_file(path, access);
+    EXPECT_TRUE(opened) << opened.error().detail;
+    return opened ? std::move(*opened) : nullptr;
+  }
+  Code refusal(Access access = Access::write) {
+    const auto opened = open_map_file(path, access);
+    EXPECT_FALSE(opened);
+    if (opened) return Code::internal;
+    EXPECT_NE(opened.error().detail.find(path.string()), std::string::npos)
+        << opened.error().detail;
+    return opened.error().code;
+  }
+  std::vector<std::string> names() {
+    std::vector<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      all.push_back(entry.path().filename().string());
+    return all;
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "map.earthwork";
+  SampleLog log;
+};
+
+TEST_F(MapFile, SurvivesBeingClosed) {
+  Contents before;
+  {
+    const auto journal = create();
+    log.write(*journal, {3, 9});
+    log.put_keyframe(*journal);
+    log.write(*journal, {2});
+    before = contents_of(*journal);
+  }
+  EXPECT_EQ(names(), std::vector<std::string>{"map.earthwork"}) << "nothing lies beside it";
+  for (const Access access : {Access::read, Access::write}) {
+    const auto journal = open(access);
+    ASSERT_NE(journal, nullptr);
+    const Contents after = contents_of(*journal);
+    EXPECT_EQ(after.failure, std::nullopt);
+    EXPECT_TRUE(after == before);
+    EXPECT_EQ(journal->last_seq(), 14u);
+  }
+  const auto journal = open();
+  log.write(*journal, {4});
+  EXPECT_EQ(journal->last_seq(), 18u);
+}
+
+TEST_F(MapFile, ShowsPeopleWhatIsDocumented) {
+  const auto journal = create();
+  log.write(*journal, {3, 9});
+  log.put_keyframe(*journal);
+  Shell shell(path);
+  EXPECT_EQ(shell.run("PRAGMA application_id; PRAGMA user_version; PRAGMA journal_mode"),
+            "1163357552 1 wal");
+  EXPECT_EQ(shell.run("SELECT value FROM meta WHERE key = 'epoch'"), "fedcba9876543210");
+  EXPECT_EQ(shell.run("SELECT json_extract(value, '$.layers[1].name') FROM meta "
+                      "WHERE key = 'settings'"),
+            "ädelsten \"x\"");
+  EXPECT_EQ(shell.run("SELECT printf('%016x', author), count(*) FROM events GROUP BY author"),
+            "f000000000000001 4 0000000000000001 4 0000000000000002 4");
+  EXPECT_EQ(shell.run("SELECT seq, command->>'stencil', command->>'radius', printf('%016x', hash) "
+                      "FROM events ORDER BY seq DESC LIMIT 1"),
+            "12 circle 1.3 " + protocol::hex(log.hash()));
+  EXPECT_EQ(shell.run("SELECT first_seq, last_seq FROM batches"), "1 3 4 12");
+  EXPECT_EQ(shell.run("SELECT seq, chunks, authors FROM keyframes"),
+            "12 " + std::to_string(log.states().size()) + " 3");
+  EXPECT_EQ(shell.run("SELECT count(*) FROM chunks"), std::to_string(log.states().size()));
+}
+
+TEST_F(MapFile, LetsOthersLookWhileItIsWritten) {
+  const auto journal = create();
+  Shell shell(path);
+  log.write(*journal, {3});
+  EXPECT_EQ(shell.run("SELECT max(seq) FROM events"), "3");
+  log.write(*journal, {2});
+  EXPECT_EQ(shell.run("SELECT max(seq) FROM events"), "5");
+}
+
+TEST_F(MapFile, RefusesToGoOnWhereSomebodyElseHasWritten) {
+  const auto journal = create();
+  log.write(*journal, {3});
+  Shell(path).run("DELETE FROM events WHERE seq = 3");
+  const auto refused = journal->append(3, log.more(1));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::bad_state);
+}
+
+TEST_F(MapFile, WaitsForNobodyForever) {
+  const auto journal = create();
+  Shell shell(path);
+  shell.run("BEGIN IMMEDIATE");
+  const auto events = log.more(1);
+  const auto refused = journal->append(0, events);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::storage_failed);
+  shell.run("ROLLBACK");
+  EXPECT_TRUE(journal->append(0, events));
+}
+
+TEST_F(MapFile, IsNotMadeOverAnother) {
+  static_cast<void>(create());
+  const std::string bytes = read_bytes(path);
+  const auto again = create_map_file(path, {});
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, Code::map_exists);
+  EXPECT_EQ(read_bytes(path), bytes);
+  EXPECT_EQ(names().size(), 1u);
+}
+
+TEST_F(MapFile, IsNotGivenWhatAnEarlierOneLeft) {
+  std::string wal;
+  {
+    const auto journal = create();
+    log.write(*journal, {3});
+    wal = read_bytes(path.string() + "-wal");
+  }
+  ASSERT_TRUE(remove_map_file(path));
+  EXPECT_TRUE(names().empty());
+  write_bytes(path.string() + "-wal", wal);
+  write_bytes(path.string() + "-tip", "of an earlier one");
+  const auto journal = create();
+  EXPECT_EQ(journal->last_seq(), 0u);
+  EXPECT_TRUE(journal->events(1, 1000).value().empty());
+}
+
+TEST_F(MapFile, IsRemovedWithAllThatLiesBesideIt) {
+  {
+    const auto journal = create();
+    log.write(*journal, {3});
+  }
+  write_bytes(path.string() + "-tip", "left");
+  write_bytes(folder / "other.earthwork", "another");
+  ASSERT_TRUE(remove_map_file(path));
+  EXPECT_EQ(names(), std::vector<std::string>{"other.earthwork"});
+  const auto again = remove_map_file(path);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().code, Code::unknown_map);
+}
+
+TEST_F(MapFile, IsAFileOfItsOwn) {
+  EXPECT_EQ(refusal(), Code::unknown_map);
+  std::filesystem::create_directory(path);
+  EXPECT_EQ(refusal(), Code::damaged);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(create_map_file(folder / "real.earthwork", sample_identity()));
+  std::filesystem::create_symlink(folder / "real.earthwork", path);
+  EXPECT_EQ(refusal(), Code::damaged) << "a link is not followed";
+}
+
+TEST_F(MapFile, IsFoundThroughALinkedFolder) {
+  static_cast<void>(create());
+  std::filesystem::create_directory_symlink(folder.path(), folder / "link");
+  EXPECT_TRUE(open_map_file(folder / "link/map.earthwork", Access::write));
+  EXPECT_TRUE(open_map_file(folder / "link/map.earthwork", Access::read));
+}
+
+TEST_F(MapFile, MayHaveAnyFolderName) {
+  std::filesystem::create_directory(folder / "a%20b?c#d 'e");
+  path = folder / "a%20b?c#d 'e/map.earthwork";
+  static_cast<void>(create());
+  ASSERT_NE(open(Access::read), nullptr);
+  EXPECT_TRUE(fork_map_file(path, path.parent_path() / "copy.earthwork", 1, 2, {}));
+}
+
+TEST_F(MapFile, OfAnotherKindIsRefused) {
+  write_bytes(path, "");
+  EXPECT_EQ(refusal(), Code::bad_version);
+  write_bytes(path, std::string(5000, 'x'));
+  EXPECT_EQ(refusal(), Code::damaged);
+  std::filesystem::remove(path);
+  Shell(path).run("CREATE TABLE events(seq)");
+  EXPECT_EQ(refusal(), Code::bad_version);
+  std::filesystem::remove(path);
+  static_cast<void>(create());
+  Shell(path).run("PRAGMA user_version = 2");
+  EXPECT_EQ(refusal(), Code::bad_version);
+  EXPECT_EQ(refusal(Access::read), Code::bad_version);
+}
+
+TEST_F(MapFile, WithAnotherSchemaIsRefusedAndNothingOfItRuns) {
+  for (const char* sql :
+       {"CREATE TRIGGER t AFTER INSERT ON events BEGIN DELETE FROM batches; END",
+        "CREATE VIEW v AS SELECT 1", "CREATE TABLE notes(x)", "CREATE INDEX i ON events(author)",
+        "DROP TABLE authors", "DROP INDEX chunks_by_seq", "ALTER TABLE events ADD COLUMN more",
+        "ALTER TABLE batches RENAME TO b; CREATE VIEW batches AS SELECT * FROM b"}) {
+    static_cast<void>(create());
+    Shell(path).run(sql);
+    EXPECT_EQ(refusal(Access::write), Code::damaged) << sql;
+    EXPECT_EQ(refusal(Access::read), Code::damaged) << sql;
+    ASSERT_TRUE(remove_map_file(path));
+  }
+}
+
+TEST_F(MapFile, RefusesACommandOfALaterKind) {
+  {
+    const auto journal = create();
+    log.write(*journal, {1});
+  }
+  Shell(path).run("UPDATE events SET command = json_set(command, '$.kind', 'undo')");
+  const auto journal = open(Access::read);
+  const auto events = journal->events(1, 1000);
+  ASSERT_FALSE(events);
+  EXPECT_EQ(events.error().code, Code::bad_version);
+  EXPECT_NE(events.error().detail.find("seq 1"), std::string::npos);
+}
+
+TEST_F(MapFile, IsReadWhereNothingMayBeWritten) {
+  static_cast<void>(create());
+  const auto journal = open(Access::read);
+  const auto refused = journal->append(0, log.more(1));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::read_only);
+  EXPECT_FALSE(journal->put_keyframe({.seq = 1}));
+  EXPECT_FALSE(journal->tidy(1));
+}
+
+TEST_F(MapFile, IsOpenedOnAFullDiskAndWrittenWhenThereIsRoom) {
+  {
+    const auto journal = create();
+    log.write(*journal, {5});
+  }
+  FaultVfs disk;
+  disk.fill_disk_at_write(1);
+  const auto journal = open();
+  ASSERT_NE(journal, nullptr);
+  EXPECT_EQ(journal->events(1, 1 << 20).value().size(), 5u);
+  const auto events = log.more(2);
+  const auto refused = journal->append(5, events);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::disk_full);
+  EXPECT_EQ(journal->events(1, 1 << 20).value().size(), 5u);
+  disk.mend();
+  EXPECT_TRUE(journal->append(5, events));
+}
+
+TEST_F(MapFile, IsForkedWhole) {
+  Contents before;
+  {
+    const auto journal = create();
+    log.write(*journal, {3, 9});
+    log.put_keyframe(*journal);
+    log.write(*journal, {2});
+    before = contents_of(*journal);
+  }
+  const std::string bytes = read_bytes(path);
+  ASSERT_TRUE(fork_map_file(path, folder / "fork.earthwork", 77, 88, {}));
+  EXPECT_EQ(read_bytes(path), bytes);
+  path = folder / "fork.earthwork";
+  const auto fork = open();
+  Contents after = contents_of(*fork);
+  EXPECT_EQ(after.identity.epoch, 77u);
+  EXPECT_EQ(after.identity.created_ms, 88);
+  after.identity = before.identity;
+  EXPECT_TRUE(after == before);
+  log.write(*fork, {3});
+  EXPECT_EQ(Shell(path).run("PRAGMA journal_mode"), "wal");
+}
+
+TEST_F(MapFile, IsForkedUpToASeq) {
+  {
+    const auto journal = create();
+    log.write(*journal, {3, 9});
+    log.put_keyframe(*journal);
+    log.write(*journal, {8});
+    log.put_keyframe(*journal);
+    log.write(*journal, {2});
+  }
+  for (const std::uint64_t seq : {0u, 2u, 3u, 12u, 15u, 20u, 22u}) {
+    SCOPED_TRACE(seq);
+    // What a journal says that never went further.
+    const auto shorter_path = folder / ("shorter" + std::to_string(seq) + ".earthwork");
+    const auto shorter = create_map_file(shorter_path, sample_identity()).value();
+    SampleLog shorter_log;
+    if (seq > 0) shorter_log.write(*shorter, {std::min<std::size_t>(seq, 12)});
+    if (seq >= 12) shorter_log.put_keyframe(*shorter);
+    if (seq > 12) shorter_log.write(*shorter, {std::min<std::size_t>(seq, 20) - 12});
+    if (seq >= 20) shorter_log.put_keyframe(*shorter);
+    if (seq > 20) shorter_log.write(*shorter, {seq - 20});
+    ASSERT_TRUE(shorter->put_authors(shorter_log.authors()));
+
+    const auto fork_path = folder / ("fork" + std::to_string(seq) + ".earthwork");
+    const Identity identity = sample_identity();
+    ASSERT_TRUE(fork_map_file(path, fork_path, identity.epoch, identity.created_ms, seq));
+    const auto fork = open_map_file(fork_path, Access::write).value();
+    const Contents found = contents_of(*fork);
+    EXPECT_EQ(found.failure, std::nullopt);
+    EXPECT_TRUE(found == contents_of(*shorter));
+    shorter_log.write(*fork, {2});
+  }
+  const auto beyond = fork_map_file(path, folder / "beyond.earthwork", 1, 2, 23);
+  ASSERT_FALSE(beyond);
+  EXPECT_EQ(beyond.error().code, Code::out_of_range);
+  const auto taken = fork_map_file(path, folder / "fork2.earthwork", 1, 2, {});
+  ASSERT_FALSE(taken);
+  EXPECT_EQ(taken.error().code, Code::map_exists);
+  for (const std::string& name : names()) EXPECT_FALSE(name.starts_with('.')) << name;
+}
+
+TEST_F(MapFile, IsForkedWithWhatACrashLeftInItsWriteAheadFile) {
+  const auto journal = create();
+  log.write(*journal, {4});
+  const auto crashed = folder / "crashed.earthwork";
+  for (const char* suffix : {"", "-wal", "-tip"})
+    write_bytes(crashed.string() + suffix, read_bytes(path.string() + suffix));
+  const auto fork = folder / "fork.earthwork";
+  ASSERT_TRUE(fork_map_file(crashed, fork, 1, 2, {}));
+  EXPECT_EQ(open_map_file(fork, Access::read).value()->last_seq(), 4u);
+  write_bytes(crashed.string() + "-wal", "");
+  const auto refused = fork_map_file(crashed, folder / "fork2.earthwork", 1, 2, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::damaged) << "not without what is missing";
+  EXPECT_TRUE(fork_map_file(crashed, folder / "fork3.earthwork", 1, 2, 0));
+}
+
+}  // namespace
+}  // namespace earthwork::journal
