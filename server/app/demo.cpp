@@ -1,7 +1,6 @@
 #include "server/app/demo.hpp"
 
 #include <cmath>
-#include <future>
 #include <memory>
 #include <utility>
 
@@ -113,17 +112,21 @@ std::vector<Edit> demo_edits() {
   return edits;
 }
 
-protocol::Result<void> add_demo(room::Atlas& atlas) {
-  auto promise = std::make_shared<std::promise<protocol::Result<void>>>();
-  atlas.create("demo", demo_settings(),
-               [promise](const protocol::Result<std::shared_ptr<room::Room>>& room) {
-                 if (!room) return promise->set_value(tl::unexpected(room.error()));
-                 (*room)->strand().post([live = *room] { paint(*live); });
-                 promise->set_value({});
-               });
-  auto made = promise->get_future().get();
-  if (!made && made.error().code == protocol::Code::map_exists) return {};
-  return made;
+void add_demo(room::Atlas& atlas, std::function<void(protocol::Result<void>)> done) {
+  const auto stored = [done](bool kept) {
+    if (kept) return done({});
+    done(protocol::fail(protocol::Code::storage_failed, "the map demo could not be stored"));
+  };
+  auto made = [done, stored](const protocol::Result<std::shared_ptr<room::Room>>& room) {
+    if (!room && room.error().code == protocol::Code::map_exists) return done({});
+    if (!room) return done(tl::unexpected(room.error()));
+    (*room)->strand().post([live = *room, stored] {
+      paint(*live);
+      // Behind the turn that applies it all.
+      live->strand().post([live, stored] { live->once_durable(stored); });
+    });
+  };
+  atlas.create("demo", demo_settings(), std::move(made));
 }
 
 }  // namespace earthwork::app

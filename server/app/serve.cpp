@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <future>
 #include <thread>
 
 #include "server/app/demo.hpp"
@@ -72,7 +74,7 @@ void say_where_maps_are(const ServeFlags& flags) {
   if (flags.memory)
     spdlog::info("in memory: maps are gone when the server ends");
   else
-    spdlog::info("maps are kept in {}", flags.data);
+    spdlog::info("maps are kept in {}", std::filesystem::absolute(flags.data).string());
 }
 
 int end(net::Server& server) {
@@ -105,8 +107,10 @@ int serve(const ServeFlags& flags) {
                                     .idle = std::chrono::seconds(flags.idle_seconds)});
   if (!server) return refuse(server.error().detail);
   if (flags.demo) {
-    if (const auto added = add_demo((*server)->atlas()); !added)
-      return refuse("--demo: " + added.error().detail);
+    std::promise<protocol::Result<void>> added;
+    add_demo((*server)->atlas(), [&](const auto& result) { added.set_value(result); });
+    if (const auto result = added.get_future().get(); !result)
+      return refuse("--demo: " + result.error().detail);
   }
 
   say_where_maps_are(flags);

@@ -188,7 +188,7 @@ void Api::delete_map(const HttpRequest& request, const std::string& name, Respon
   // A page of another site cannot send a DELETE unasked, with a body or without.
   if (!request.body.empty() && !is_json(request.content_type)) return respond(not_json());
   atlas_.erase(name, [respond = std::move(respond)](const protocol::Result<void>& erased) {
-    if (!erased) return respond(problem(erased.error()));
+    if (!erased) return respond(map_problem(erased.error()));
     respond({.status = 204, .content_type = {}, .headers = {}, .body = {}});
   });
 }
@@ -196,6 +196,7 @@ void Api::delete_map(const HttpRequest& request, const std::string& name, Respon
 void Api::handle_map(const HttpRequest& request, const Target& target, Respond respond) const {
   const std::string& name = target.segments[2];
   const std::string part = target.segments.size() == 4 ? target.segments[3] : "";
+  if (!protocol::valid_map_name(name)) return respond(not_found(request.target));
   if (part.empty()) {
     if (!check_method(request, {"GET", "DELETE"}, respond)) return;
     if (request.method == "DELETE") return delete_map(request, name, std::move(respond));

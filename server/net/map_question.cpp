@@ -4,6 +4,11 @@
 
 namespace earthwork::net {
 
+HttpResponse map_problem(protocol::Failure failure) {
+  failure.field.clear();
+  return problem(failure);
+}
+
 void ask_map(room::Atlas& atlas, const std::string& map, Question question, Respond respond,
              int tries) {
   if (tries == 0)
@@ -11,7 +16,7 @@ void ask_map(room::Atlas& atlas, const std::string& map, Question question, Resp
                             "map: what it would show could not be stored; try again", "map"}));
   auto ask = [&atlas, map, question = std::move(question), respond = std::move(respond),
               tries](const protocol::Result<RoomPointer>& room) {
-    if (!room) return respond(problem(room.error()));
+    if (!room) return respond(map_problem(room.error()));
     question(*room, [&atlas, map, question, respond, tries,
                      there = *room](std::optional<HttpResponse> answer) {
       if (answer) return respond(std::move(*answer));

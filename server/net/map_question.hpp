@@ -22,6 +22,9 @@ inline constexpr int kMaxTries = 3;
 using Given = std::function<void(std::optional<HttpResponse>)>;
 using Question = std::function<void(const RoomPointer& room, Given give)>;
 
+/// Why there is no answer for a map that is named by the request's path, so by no field.
+[[nodiscard]] HttpResponse map_problem(protocol::Failure failure);
+
 /// Asks the map's room, a new one each time, until it gives an answer, and responds with that. The
 /// atlas outlives it.
 void ask_map(room::Atlas& atlas, const std::string& map, Question question, Respond respond,

@@ -53,8 +53,10 @@ void with_meshes(const RoomPointer& room, Given give, std::function<void(Room&)>
   auto piece = [room, give, then = std::move(then), budget_chunks] {
     if (room->refresh_meshes(budget_chunks))
       then(*room);
-    else
-      with_meshes(room, give, then, budget_chunks * 2);
+    else  // the meshes of what viewers wait for come first
+      room->once_durable([room, give, then, budget_chunks](bool) {
+        with_meshes(room, give, then, budget_chunks * 2);
+      });
   };
   room->strand().post(answering(std::move(give), std::move(piece)));
 }
@@ -88,7 +90,7 @@ void describe_map(const RoomPointer& room, int status, Given give) {
                                {"chunks", info.chunks},
                                {"users", info.users}});
     if (status == 201) response.headers.emplace_back("Location", "/api/maps/" + room->name());
-    give_when_kept(*room, give, std::move(response));
+    give(std::move(response));  // what a room says of itself is stored
   };
   room->strand().post(answering(std::move(give), std::move(describe)));
 }

@@ -283,6 +283,8 @@ void Atlas::Core::closed(const std::string& name, std::uint64_t opening) {
 }
 
 void Atlas::Core::start_removing(const std::string& name, Page& page, After& after) {
+  if (over_)  // it stays, for nothing runs aside any more
+    return answer(after, std::exchange(page.erasing, nullptr), protocol::Result<void>(ending()));
   page.state = Page::State::removing;
   after.push_back(
       [this, name] { queue_->post([self = shared_from_this(), name] { self->remove(name); }); });

@@ -6,6 +6,8 @@
 #include "server/history/fold.hpp"
 #include "server/mesh/figures.hpp"
 #include "server/room/manual_context.hpp"
+#include "tests/room/atlas_calls.hpp"
+#include "tests/room/kept_shelf.hpp"
 
 namespace earthwork::app {
 namespace {
@@ -42,18 +44,50 @@ TEST(Demo, ShowsSharpCornersOnBothLayers) {
   EXPECT_FALSE(map.filled(1, 2, 18));  // the bite
 }
 
-TEST(Demo, IsPaintedBeforeAnybodyCanSeeIt) {
+TEST(Demo, IsPaintedOnce) {
   room::ManualContext context;
-  room::Atlas atlas([&context] { return context.make_strand(); });
-  ASSERT_TRUE(add_demo(atlas));
-  const auto room = atlas.find("demo");
-  ASSERT_TRUE(room);
-  std::size_t seen = 0;
-  room->strand().post([&] { room->strand().post([&] { seen = room->info().seq; }); });
+  room::Atlas atlas({.make_strand = [&context] { return context.make_strand(); }});
+  int done = 0;
+  for (int i = 1; i <= 2; ++i) {
+    add_demo(atlas, [&](const protocol::Result<void>& result) {
+      EXPECT_TRUE(result);
+      ++done;
+    });
+    context.run();
+    EXPECT_EQ(done, i);
+    EXPECT_EQ(room::find_map(atlas, "demo")->info().seq, demo_edits().size());
+  }
+  EXPECT_EQ(room::find_map(atlas, "demo")->info().users, 0u);
+}
+
+TEST(Demo, IsStoredWhenItIsDone) {
+  room::ManualContext context;
+  const auto shelf = std::make_shared<room::KeptShelf>();
+  room::Atlas atlas({.make_strand = [&context] { return context.make_strand(); }, .shelf = shelf});
+  shelf->hold();
+  bool done = false;
+  add_demo(atlas, [&](const protocol::Result<void>&) { done = true; });
   context.run();
-  EXPECT_EQ(seen, demo_edits().size());
-  EXPECT_EQ(room->info().users, 0u);
-  EXPECT_FALSE(add_demo(atlas));
+  EXPECT_FALSE(done);
+  shelf->go_on();
+  context.run();
+  EXPECT_TRUE(done);
+  EXPECT_EQ(shelf->maps.at("demo").journal->last_seq(), demo_edits().size());
+}
+
+TEST(Demo, SaysWhenItCouldNotBeStored) {
+  room::ManualContext context;
+  const auto shelf = std::make_shared<room::KeptShelf>();
+  room::Atlas atlas({.make_strand = [&context] { return context.make_strand(); }, .shelf = shelf});
+  shelf->hold();
+  std::optional<protocol::Result<void>> told;
+  add_demo(atlas, [&](const protocol::Result<void>& result) { told = result; });
+  context.run();
+  shelf->maps.at("demo").unwritable = {protocol::Code::disk_full, "no room", {}};
+  shelf->go_on();
+  context.run();
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->error().code, protocol::Code::storage_failed);
 }
 
 }  // namespace

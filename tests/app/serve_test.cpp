@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "tests/e2e/program.hpp"
+#include "tests/e2e/server_answers.hpp"
 
 namespace earthwork::app {
 namespace {
@@ -34,6 +37,15 @@ bool prints_a_line(Program& program) {
   return true;
 }
 
+/// Whether a number in the text is the pid of a process that was started with this argument.
+bool names_a_process_with(const std::string& argument, const std::string& text) {
+  const std::regex number("[0-9]+");
+  for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at)
+    if (e2e::read_file("/proc/" + at->str() + "/cmdline").find(argument) != std::string::npos)
+      return true;
+  return false;
+}
+
 TEST(Server, SaysItsVersionAndWhatItCan) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--version"}, {"serve", "--version"}}) {
@@ -44,7 +56,7 @@ TEST(Server, SaysItsVersionAndWhatItCan) {
   EXPECT_NE(server({"--help"}).out.find("serve"), std::string::npos);
   const Outcome help = server({"serve", "--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* flag : {"--data", "--listen", "--memory", "--insecure-open"})
+  for (const char* flag : {"--data", "--listen", "--memory", "--idle", "--insecure-open"})
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
 }
 
@@ -59,7 +71,10 @@ TEST(Server, RefusesWrongUseInOneLine) {
         {"serve", "--listen", "127.0.0.1:99999"},
         {"serve", "--listen", "0.0.0.0:0"},
         {"serve", "--listen", "[::]:0"},
-        {"serve", "--listen", "192.0.2.1:0", "--insecure-open"}}) {
+        {"serve", "--idle", "0"},
+        {"serve", "--idle", "soon"},
+        {"serve", "--data", "/proc/nothing/here", "--listen", "127.0.0.1:0"},
+        {"serve", "--memory", "--listen", "192.0.2.1:0", "--insecure-open"}}) {
     const Outcome refused = server(arguments);
     EXPECT_EQ(refused.exit_code, 2) << testing::PrintToString(arguments);
     EXPECT_EQ(lines(refused.err), 1) << refused.err;
@@ -74,7 +89,7 @@ TEST(Server, NamesTheFlagThatOpensIt) {
 
 TEST(Server, EndsWithZeroWhenItIsAsked) {
   for (const int signal : {SIGTERM, SIGINT}) {
-    Program program("earthwork-server", {"serve", "--demo", "--listen", "127.0.0.1:0"});
+    Program program("earthwork-server", {"serve", "--memory", "--demo", "--listen", "127.0.0.1:0"});
     ASSERT_TRUE(prints_a_line(program));
     const auto start = std::chrono::steady_clock::now();
     program.signal(signal);
@@ -89,9 +104,39 @@ TEST(Server, EndsWithZeroWhenItIsAsked) {
 
 TEST(Server, DoesNotListenTwiceInOnePlace) {
   e2e::ServerProgram first;
-  const Outcome second = server({"serve", "--listen", first.address().text().substr(7)});
+  const Outcome second =
+      server({"serve", "--memory", "--listen", first.address().text().substr(7)});
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_EQ(lines(second.err), 1);
+}
+
+TEST(Server, KeepsItsMapsInTheFolderThatItSays) {
+  e2e::Folder folder;
+  const std::string data = folder / "maps";
+  std::string demo;
+  for (int start = 0; start < 2; ++start) {
+    e2e::ServerProgram server({.data = data, .more = {"--demo"}});
+    const std::string described = e2e::get(server, "/api/maps/demo");
+    if (start > 0) EXPECT_EQ(described, demo);  // its epoch too: it is painted once
+    demo = described;
+    server.ask_to_end();
+    const Outcome outcome = server.wait();
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find(data), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("in memory"), std::string::npos) << outcome.err;
+  }
+  EXPECT_TRUE(std::filesystem::exists(data + "/demo.earthwork"));
+}
+
+TEST(Server, LeavesAFolderAloneThatAnotherOneUses) {
+  e2e::Folder folder;
+  const std::string data = folder / "maps";
+  e2e::ServerProgram first({.data = data});
+  const Outcome second = server({"serve", "--data", data, "--listen", "127.0.0.1:0"});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_EQ(second.out, "");
+  EXPECT_EQ(lines(second.err), 1);
+  EXPECT_TRUE(names_a_process_with(data, second.err)) << second.err;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "server/room/manual_context.hpp"
 #include "tests/net/figure_names.hpp"
+#include "tests/room/atlas_calls.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -45,7 +46,7 @@ struct ApiTest : testing::Test {
       void tell(room::Talk) override {}
       void end(protocol::Bye) override {}
     };
-    const auto room = atlas.find(map);
+    const auto room = room::find_map(atlas, map);
     const auto viewer = room->join(std::make_shared<Blind>(), {}).value().viewer;
     for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {++id, 0, edit}));
     context.run();
@@ -66,7 +67,7 @@ struct ApiTest : testing::Test {
 
   protocol::MessageId id = 0;  // of the last edit
   room::ManualContext context;
-  room::Atlas atlas{[this] { return context.make_strand(); }};
+  room::Atlas atlas{{.make_strand = [this] { return context.make_strand(); }}};
   Workers workers{1};
   Api api{atlas, workers, Access({"127.0.0.1", 8080}, {})};
 };
@@ -106,7 +107,7 @@ TEST_F(ApiTest, MakesListsDescribesAndDeletesMaps) {
 
 TEST_F(ApiTest, SettingsAreOptional) {
   EXPECT_EQ(create(R"({"name":"a"})").status, 201);
-  EXPECT_EQ(atlas.find("a")->settings(), protocol::MapSettings{});
+  EXPECT_EQ(room::find_map(atlas, "a")->settings(), protocol::MapSettings{});
 }
 
 TEST_F(ApiTest, RefusesMapsThatCannotBe) {
@@ -120,7 +121,7 @@ TEST_F(ApiTest, RefusesMapsThatCannotBe) {
   const auto refused = create(R"({"name":"b","settings":{"chunk_resolution":7}})");
   is_problem(refused, 400);
   EXPECT_EQ(json::parse(refused.body).at("field"), "chunk_resolution");
-  EXPECT_EQ(atlas.find("b"), nullptr);
+  EXPECT_EQ(room::find_map(atlas, "b"), nullptr);
 }
 
 TEST_F(ApiTest, WhatWritesHasToBeJson) {
@@ -138,7 +139,7 @@ TEST_F(ApiTest, WhatWritesHasToBeJson) {
   auto del = request("DELETE", "/api/maps/a", "x=1");
   del.content_type = "text/plain";
   is_problem(ask(del), 415);
-  EXPECT_NE(atlas.find("a"), nullptr);
+  EXPECT_NE(room::find_map(atlas, "a"), nullptr);
 }
 
 TEST_F(ApiTest, AnswersOnlyToItsName) {

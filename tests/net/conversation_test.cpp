@@ -5,6 +5,8 @@
 
 #include "server/room/manual_context.hpp"
 #include "tests/net/wire_messages.hpp"
+#include "tests/room/atlas_calls.hpp"
+#include "tests/room/kept_shelf.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -67,9 +69,9 @@ const std::string kEdit =
     R"({"type":"edit","id":4,"stencil":"circle","fill":true,"x":5,"y":5,"radius":3})";
 
 struct ConversationTest : testing::Test {
-  ConversationTest() { EXPECT_TRUE(atlas.create("m", {})); }
+  ConversationTest() { EXPECT_TRUE(room::create_map(atlas, "m", {})); }
   room::ManualContext context;
-  room::Atlas atlas{[this] { return context.make_strand(); }};
+  room::Atlas atlas{{.make_strand = [this] { return context.make_strand(); }}};
   Speaker talk{atlas, context};
 };
 
@@ -126,7 +128,7 @@ TEST_F(ConversationTest, JoinTellsOfTheMap) {
   const auto joined = talk.one<protocol::Joined>(kJoin);
   EXPECT_EQ(joined.id, 2);
   EXPECT_EQ(joined.map, "m");
-  EXPECT_EQ(joined.epoch, protocol::hex(atlas.find("m")->epoch()));
+  EXPECT_EQ(joined.epoch, protocol::hex(room::find_map(atlas, "m")->epoch()));
   ASSERT_EQ(joined.users.size(), 1u);
   EXPECT_EQ(joined.users[0].name, "ann");
   EXPECT_EQ(joined.users[0].color.size(), 7u);
@@ -157,20 +159,27 @@ TEST_F(ConversationTest, EditsAreAppliedOrRejected) {
       R"({"type":"edit","id":5,"stencil":"circle","fill":true,"x":5,"y":5,"radius":600})");
   EXPECT_EQ(rejected.id, 5);
   EXPECT_EQ(rejected.failure.field, "radius");
-  EXPECT_EQ(atlas.find("m")->info().seq, 1u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().seq, 1u);
 }
 
 TEST_F(ConversationTest, AnEditKeepsItsAuthorsKeyOutOfTheLog) {
-  talk.one<protocol::Welcome>(kHello);
+  const std::string key = "00112233445566778899aabbccddeeff";
+  talk.one<protocol::Welcome>(R"({"type":"hello","protocol":[1,1],"name":"ann","key":")" + key +
+                              "\"}");
   talk.one<protocol::Joined>(kJoin);
   talk.one<protocol::Applied>(kEdit);
   Speaker other(atlas, context);
   other.one<protocol::Welcome>(kHello);
   other.one<protocol::Joined>(kJoin);
   other.one<protocol::Applied>(kEdit);
-  const auto events = atlas.find("m")->events();
-  ASSERT_EQ(events.size(), 2u);
-  EXPECT_NE(events[0].author, events[1].author);
+  const auto heard = other.say(R"({"type":"events","from_seq":1})");
+  std::vector<std::string> authors;
+  for (const auto& message : heard)
+    if (const auto* event = std::get_if<protocol::Event>(&message))
+      authors.push_back(event->author);
+  ASSERT_EQ(authors.size(), 2u);
+  EXPECT_NE(authors[0], authors[1]);
+  EXPECT_EQ(key.find(authors[0]), std::string::npos);
 }
 
 TEST_F(ConversationTest, AViewIsDoneAndThenCaughtUp) {
@@ -200,10 +209,10 @@ TEST_F(ConversationTest, LeavingAndJoiningAgain) {
   talk.one<protocol::Welcome>(kHello);
   talk.one<protocol::Joined>(kJoin);
   EXPECT_EQ(talk.one<protocol::Done>(R"({"type":"leave","id":3})").id, 3);
-  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().users, 0u);
   talk.refused(kEdit, Code::bad_state, 4);
   talk.one<protocol::Joined>(R"({"type":"join","map":"m","id":5})");
-  EXPECT_EQ(atlas.find("m")->info().users, 1u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().users, 1u);
 }
 
 TEST_F(ConversationTest, ALeaveIsDoneAfterTheEditsBeforeIt) {
@@ -223,8 +232,8 @@ TEST_F(ConversationTest, ALeaveIsDoneAfterTheEditsBeforeIt) {
     EXPECT_EQ(std::get<protocol::Done>(heard[1]).id, 5);
     ASSERT_TRUE(talk.conversation->may_read());
   }
-  EXPECT_EQ(atlas.find("m")->info().users, 0u);
-  EXPECT_EQ(atlas.find("m")->info().seq, 128u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().users, 0u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().seq, 128u);
 }
 
 TEST_F(ConversationTest, AbandonedDuringALeaveItLeavesTheRoom) {
@@ -234,8 +243,8 @@ TEST_F(ConversationTest, AbandonedDuringALeaveItLeavesTheRoom) {
   talk.conversation->receive(R"({"type":"leave","id":5})");
   talk.conversation->abandon();
   context.run();
-  EXPECT_EQ(atlas.find("m")->info().users, 0u);
-  EXPECT_EQ(atlas.find("m")->info().seq, 1u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().users, 0u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().seq, 1u);
 }
 
 TEST_F(ConversationTest, PingIsDone) {
@@ -423,7 +432,7 @@ TEST_F(ConversationTest, IsNotReadWhileItDoesNotRead) {
 TEST_F(ConversationTest, SaysByeWhenTheMapIsDeleted) {
   talk.one<protocol::Welcome>(kHello);
   talk.one<protocol::Joined>(kJoin);
-  ASSERT_TRUE(atlas.erase("m"));
+  room::erase_map(atlas, "m");
   context.run();
   const auto heard = talk.hear();
   ASSERT_EQ(heard.size(), 1u);
@@ -433,7 +442,7 @@ TEST_F(ConversationTest, SaysByeWhenTheMapIsDeleted) {
 
 TEST_F(ConversationTest, AMapThatIsDeletedDuringTheJoinIsUnknown) {
   talk.one<protocol::Welcome>(kHello);
-  const auto room = atlas.find("m");
+  const auto room = room::find_map(atlas, "m");
   room->close({{Code::unknown_map, "gone", "map"}, {}});
   talk.refused(kJoin, Code::unknown_map, 2);
 }
@@ -445,7 +454,7 @@ TEST_F(ConversationTest, AbandonedItLeavesTheRoomAndWakesNobody) {
   const int wakes = talk.wakes;
   talk.conversation->abandon();
   context.run();
-  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().users, 0u);
   EXPECT_EQ(talk.wakes, wakes);
 }
 
@@ -454,7 +463,104 @@ TEST_F(ConversationTest, AbandonedDuringTheJoinItLeavesTheRoomToo) {
   talk.conversation->receive(kJoin);
   talk.conversation->abandon();
   context.run();
-  EXPECT_EQ(atlas.find("m")->info().users, 0u);
+  EXPECT_EQ(room::find_map(atlas, "m")->info().users, 0u);
+}
+
+/// Over maps that lie on a shelf, where opening waits until it is told to go on.
+struct KeptConversationTest : testing::Test {
+  KeptConversationTest() {
+    shelf->put("m", {.settings = {}, .epoch = 0xA, .created_ms = 1});
+    EXPECT_TRUE(atlas.take_stock());
+    talk.one<protocol::Welcome>(kHello);
+  }
+  void open_what_waits() {
+    for (context.run(); !aside.empty(); context.run())
+      for (const auto& task : std::exchange(aside, {})) task();
+  }
+  /// What is said in answer, once all is opened that has to be.
+  template <class T>
+  T one_opened(const std::string& text) {
+    talk.conversation->receive(text);
+    open_what_waits();
+    const auto heard = talk.hear();
+    EXPECT_EQ(heard.size(), 1u) << text;
+    return std::get<T>(heard.at(0));
+  }
+
+  room::ManualContext context;
+  std::vector<room::Strand::Task> aside;
+  std::shared_ptr<room::KeptShelf> shelf = std::make_shared<room::KeptShelf>();
+  room::Atlas atlas{
+      {.make_strand = [this] { return context.make_strand(); },
+       .shelf = shelf,
+       .aside = [this](room::Strand::Task task) { aside.push_back(std::move(task)); }}};
+  Speaker talk{atlas, context};
+};
+
+TEST_F(KeptConversationTest, AJoinWaitsUntilTheMapIsOpen) {
+  EXPECT_TRUE(talk.say(kJoin).empty());
+  EXPECT_FALSE(talk.conversation->may_read());
+  open_what_waits();
+  const auto heard = talk.hear();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(std::get<protocol::Joined>(heard[0]).epoch, "000000000000000a");
+  EXPECT_TRUE(talk.conversation->may_read());
+}
+
+TEST_F(KeptConversationTest, AbandonedWhileTheMapIsOpenedItLeavesIt) {
+  talk.conversation->receive(kJoin);
+  talk.conversation->abandon();
+  open_what_waits();
+  ASSERT_EQ(atlas.rooms().size(), 1u);
+  EXPECT_EQ(atlas.rooms()[0]->info().users, 0u);
+}
+
+TEST_F(KeptConversationTest, AMapThatCannotBeOpenedIsRefusedAndTheSessionGoesOn) {
+  shelf->put("bad", {}).broken = {Code::damaged, "bad.earthwork: events, seq 3", {}};
+  room::Atlas fresh{{.make_strand = [this] { return context.make_strand(); }, .shelf = shelf}};
+  ASSERT_TRUE(fresh.take_stock());
+  Speaker speaker(fresh, context);
+  speaker.one<protocol::Welcome>(kHello);
+  speaker.refused(R"({"type":"join","map":"bad","id":2})", Code::damaged, 2);
+  EXPECT_TRUE(speaker.conversation->may_read());
+  speaker.one<protocol::Joined>(kJoin);
+}
+
+TEST_F(KeptConversationTest, AMapThatIsPutAwayMeanwhileIsOpenedAgain) {
+  one_opened<protocol::Joined>(kJoin);
+  one_opened<protocol::Done>(R"({"type":"leave","id":3})");
+  const auto room = atlas.rooms().at(0);
+  talk.conversation->receive(kJoin);
+  // The room is found, and closes before the join gets there.
+  ASSERT_TRUE(room->retire([] {}));
+  open_what_waits();
+  const auto heard = talk.hear();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(std::get<protocol::Joined>(heard[0]).epoch, "000000000000000a");
+  EXPECT_NE(atlas.rooms().at(0), room);
+}
+
+TEST_F(KeptConversationTest, AnEditThatCannotBeStoredIsRejectedAndTheNextOneIsTriedAgain) {
+  one_opened<protocol::Joined>(kJoin);
+  shelf->maps.at("m").unwritable = {Code::disk_full, "m.earthwork: no room", {}};
+  talk.refused(kEdit, Code::disk_full, 4);
+  shelf->maps.at("m").unwritable.reset();
+  context.advance(std::chrono::seconds(2));
+  EXPECT_EQ(talk.one<protocol::Applied>(kEdit), (protocol::Applied{4, 1}));
+}
+
+TEST_F(KeptConversationTest, AMapThatMustBeOpenedAnewSaysWhenToComeBack) {
+  one_opened<protocol::Joined>(kJoin);
+  shelf->maps.at("m").unwritable = {Code::bad_state, "somebody else has written", {}};
+  const auto bye = one_opened<protocol::Bye>(kEdit);
+  EXPECT_EQ(bye.failure.code, Code::bad_state);
+  EXPECT_TRUE(bye.retry_after_ms);
+  shelf->maps.at("m").unwritable.reset();
+  Speaker again(atlas, context);
+  again.one<protocol::Welcome>(kHello);
+  again.conversation->receive(kJoin);
+  open_what_waits();
+  EXPECT_EQ(std::get<protocol::Joined>(again.hear().at(0)).seq, 0u);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "server/net/server.hpp"
 #include "tests/net/raw_client.hpp"
 #include "tests/net/wire_messages.hpp"
+#include "tests/room/atlas_calls.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -56,7 +57,7 @@ struct DeliveryTest : testing::Test {
     limits.hello = limits.silence = limits.farewell = 2min;
     server =
         Server::start({.listen = {"127.0.0.1", 0}, .allowed_hosts = {}, .limits = limits}).value();
-    EXPECT_TRUE(server->atlas().create("m", {.chunk_resolution = 8, .chunks = {}}));
+    EXPECT_TRUE(room::create_map(server->atlas(), "m", {.chunk_resolution = 8, .chunks = {}}));
   }
 
   /// Through hello and join.
@@ -84,7 +85,7 @@ struct DeliveryTest : testing::Test {
   }
   /// What the room says when asked there.
   [[nodiscard]] std::uint64_t seq() const {
-    const auto room = server->atlas().find("m");
+    const auto room = room::find_map(server->atlas(), "m");
     std::promise<std::uint64_t> seq;
     room->strand().post([&] { seq.set_value(room->info().seq); });
     return seq.get_future().get();

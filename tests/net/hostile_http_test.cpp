@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/net/hostile_server.hpp"
+#include "tests/room/atlas_calls.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -133,7 +134,7 @@ TEST_F(HostileHttpTest, LengthsThatDisagree) {
   is_problem(post("Content-Length: 99999999999999999999\r\n", body), 400);
   is_problem(post("Content-Length: 12\r\nTransfer-Encoding: chunked\r\n", body), 400);
   is_problem(post("Content-Length: 65537\r\n", ""), 413);
-  EXPECT_EQ(server->atlas().find("a"), nullptr);
+  EXPECT_EQ(room::find_map(server->atlas(), "a"), nullptr);
   // Said twice and the same, it is one (RFC 9112, 6.3).
   EXPECT_EQ(post("Content-Length: 12\r\nContent-Length: 12\r\n", body).status, 201);
 }
@@ -182,7 +183,7 @@ TEST_F(HostileHttpTest, BodiesThatAreNoJson) {
   is_problem(body(R"({"name":"a","settings":{"voxel_size":1e400}})"), 400, "voxel_size");
   is_problem(body(R"({"name":"a","settings":{"voxel_size":NaN}})"), 400);
   is_problem(body(R"({"name":"../a"})"), 400, "name");
-  EXPECT_EQ(server->atlas().find("a"), nullptr);
+  EXPECT_EQ(room::find_map(server->atlas(), "a"), nullptr);
 }
 
 }  // namespace

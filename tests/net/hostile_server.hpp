@@ -11,6 +11,7 @@
 #include "server/net/server.hpp"
 #include "tests/net/painter.hpp"
 #include "tests/net/raw_client.hpp"
+#include "tests/room/atlas_calls.hpp"
 
 namespace earthwork::net {
 
@@ -28,7 +29,7 @@ struct HostileTest : testing::Test {
     server =
         Server::start({.listen = {"127.0.0.1", 0}, .allowed_hosts = {}, .limits = limits}).value();
     port = server->address().port;
-    EXPECT_TRUE(server->atlas().create("m", {.chunk_resolution = 8, .chunks = {}}));
+    EXPECT_TRUE(room::create_map(server->atlas(), "m", {.chunk_resolution = 8, .chunks = {}}));
     painter = std::make_unique<Painter>(port, "m");
     EXPECT_TRUE(painter->is_answered());
   }

@@ -56,7 +56,8 @@ std::map<std::string, Family> read(const std::string& page) {
 }
 
 MapTotals busy() {
-  return {.maps = 3,
+  return {.maps = 8,
+          .open_maps = 3,
           .viewers = 12,
           .waiting_edits = 7,
           .dirty_chunks = 40,
@@ -75,10 +76,16 @@ TEST(Metrics, SayWhatWasCounted) {
   meters.frame_bytes = 22'000;
   meters.controls = 31;
   meters.control_bytes = 32'000;
+  meters.commits = 41;
+  meters.committed_events = 4'100;
+  meters.commit_ns = 1'500'000'000;
+  meters.waiting_events = 6;
+  meters.keyframes = 43;
   auto page = read(metrics_text(meters, busy(), {.resident_bytes = 4096, .cpu_seconds = 0.25}));
 
   const std::map<std::string, double> expected{{"earthwork_sessions", 5},
-                                               {"earthwork_maps", 3},
+                                               {"earthwork_maps", 8},
+                                               {"earthwork_open_maps", 3},
                                                {"earthwork_viewers", 12},
                                                {"earthwork_edits_total", 9'007'199'254'740'991},
                                                {"earthwork_edits_repeated_total", 2},
@@ -89,24 +96,37 @@ TEST(Metrics, SayWhatWasCounted) {
                                                {"earthwork_frame_bytes_total", 22'000},
                                                {"earthwork_controls_total", 31},
                                                {"earthwork_control_bytes_total", 32'000},
+                                               {"earthwork_commits_total", 41},
+                                               {"earthwork_committed_events_total", 4'100},
+                                               {"earthwork_commit_seconds_total", 1.5},
+                                               {"earthwork_waiting_events", 6},
+                                               {"earthwork_keyframes_total", 43},
                                                {"earthwork_owed_chunks", 500},
                                                {"earthwork_waiting_edits", 7},
                                                {"earthwork_queue_age_seconds", 1.25},
                                                {"process_resident_memory_bytes", 4096},
                                                {"process_cpu_seconds_total", 0.25}};
   for (const auto& [name, value] : expected) EXPECT_EQ(page[name].samples[""], value) << name;
-  EXPECT_EQ(page.size(), expected.size() + 1);  // and the refusals
+  EXPECT_EQ(page.size(), expected.size() + 2);  // and what was refused, what failed
 }
 
-TEST(Metrics, RefusalsHaveASampleForEveryCode) {
+TEST(Metrics, RefusalsAndFailuresHaveASampleForEveryCode) {
   room::Meters meters;
-  for (std::size_t i = 0; i < meters.rejected.size(); ++i) meters.rejected[i] = 100 + i;
-  auto family = read(metrics_text(meters, {}, {}))["earthwork_rejected_total"];
-  EXPECT_EQ(family.samples.size(), meters.rejected.size());
-  const auto at = [](protocol::Code code) { return 100.0 + static_cast<double>(code); };
-  EXPECT_EQ(family.samples["{code=\"bad_json\"}"], at(protocol::Code::bad_json));
-  EXPECT_EQ(family.samples["{code=\"too_large\"}"], at(protocol::Code::too_large));
-  EXPECT_EQ(family.samples["{code=\"internal\"}"], at(protocol::Code::internal));
+  for (std::size_t i = 0; i < meters.rejected.size(); ++i) {
+    meters.rejected[i] = 100 + i;
+    meters.journal_failures[i] = 300 + i;
+  }
+  auto page = read(metrics_text(meters, {}, {}));
+  const auto check = [&](const char* name, double first) {
+    auto& samples = page[name].samples;
+    EXPECT_EQ(samples.size(), meters.rejected.size());
+    const auto at = [&](protocol::Code code) { return first + static_cast<double>(code); };
+    EXPECT_EQ(samples["{code=\"bad_json\"}"], at(protocol::Code::bad_json));
+    EXPECT_EQ(samples["{code=\"disk_full\"}"], at(protocol::Code::disk_full));
+    EXPECT_EQ(samples["{code=\"internal\"}"], at(protocol::Code::internal));
+  };
+  check("earthwork_rejected_total", 100);
+  check("earthwork_journal_failures_total", 300);
 }
 
 TEST(Metrics, CountersAreNamedAsCountersAndEachHasItsHelp) {

@@ -14,6 +14,7 @@
 #include "protocol/messages.hpp"
 #include "server/net/server.hpp"
 #include "tests/net/raw_client.hpp"
+#include "tests/room/atlas_calls.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -36,7 +37,7 @@ struct SessionTest : testing::Test {
     server =
         Server::start({.listen = {"127.0.0.1", 0}, .allowed_hosts = {}, .limits = limits}).value();
     port = server->address().port;
-    EXPECT_TRUE(server->atlas().create("m", {.chunk_resolution = 8, .chunks = {}}));
+    EXPECT_TRUE(room::create_map(server->atlas(), "m", {.chunk_resolution = 8, .chunks = {}}));
   }
 
   /// The next text as a message.
@@ -65,7 +66,7 @@ struct SessionTest : testing::Test {
 
   /// In the room.
   [[nodiscard]] std::size_t users() const {
-    const auto room = server->atlas().find("m");
+    const auto room = room::find_map(server->atlas(), "m");
     std::promise<std::size_t> count;
     room->strand().post([&] { count.set_value(room->info().users); });
     return count.get_future().get();
@@ -177,7 +178,7 @@ TEST_F(SessionTest, AMessageMayHaveSoMuchAndNotAByteMore) {
 
 TEST_F(SessionTest, SaysByeWhenTheMapIsDeleted) {
   const auto client = guest();
-  ASSERT_TRUE(server->atlas().erase("m"));
+  room::erase_map(server->atlas(), "m");
   expect_bye(*client, Code::unknown_map);
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "server/room/manual_context.hpp"
+#include "tests/room/atlas_calls.hpp"
 
 namespace earthwork::net {
 namespace {
@@ -19,7 +20,7 @@ struct SurveyTest : testing::Test {
   };
 
   std::shared_ptr<room::Room> map(const std::string& name) {
-    return atlas.create(name, {}).value();
+    return room::create_map(atlas, name, {}).value();
   }
   room::ViewerId enter(room::Room& room) {
     return room.join(std::make_shared<Blind>(), {}).value().viewer;
@@ -33,7 +34,7 @@ struct SurveyTest : testing::Test {
   }
 
   room::ManualContext context;
-  room::Atlas atlas{[this] { return context.make_strand(); }};
+  room::Atlas atlas{{.make_strand = [this] { return context.make_strand(); }}};
   std::shared_ptr<Survey> survey = std::make_shared<Survey>(atlas);
   std::vector<MapTotals> told;
 };
@@ -103,12 +104,12 @@ TEST_F(SurveyTest, HoweverManyAskAMapIsAskedOnceAtATime) {
     }
     [[nodiscard]] std::int64_t now_ms() const override { return inner->now_ms(); }
   };
-  room::Atlas counted([&] {
+  room::Atlas counted({.make_strand = [&] {
     ++strands;
     return std::make_unique<Counted>(context.make_strand(), &tasks);
-  });
-  ASSERT_TRUE(counted.create("a", {}));
-  ASSERT_TRUE(counted.create("b", {}));
+  }});
+  ASSERT_TRUE(room::create_map(counted, "a", {}));
+  ASSERT_TRUE(room::create_map(counted, "b", {}));
   const auto asked = std::make_shared<Survey>(counted);
   tasks = 0;
   for (int i = 0; i < 100; ++i) asked->ask(note());
@@ -125,7 +126,7 @@ TEST_F(SurveyTest, HoweverManyAskAMapIsAskedOnceAtATime) {
 TEST_F(SurveyTest, AMapThatIsDeletedMeanwhileIsCountedAllTheSame) {
   map("a");
   survey->ask(note());
-  EXPECT_TRUE(atlas.erase("a"));
+  room::erase_map(atlas, "a");
   context.run();
   EXPECT_EQ(told.size(), 1u);
 }
