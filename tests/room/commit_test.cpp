@@ -322,6 +322,29 @@ TEST_F(CommitTest, WhatCannotBeStoredIsRefusedAndGone) {
   EXPECT_FALSE(ann.eyes->bye);
 }
 
+TEST_F(CommitTest, WhoLooksMeanwhileIsShownWhatComesBack) {
+  for (int i = 0; i < 8; ++i) edit(ann, disc(20 + 8 * i, 4, 3));
+  edit(ann, disc(4, 4, 2));
+  commit_all();
+  settle(bob);
+  edit(ann, box(4, 4, 4, false));  // a chunk loses its mesh,
+  Guest late = enter("late");
+  ASSERT_TRUE(room->look(late.id, view_rect(1, {1, 1, 7, 7})));
+  context.run();
+  fail();  // and has it again
+  settle(late);
+  ASSERT_FALSE(late.eyes->parcels.empty());
+  EXPECT_EQ(late.eyes->parcels.back().caught_up->seq, 9u);
+  EXPECT_TRUE(late.eyes->chunks.contains({0, 0, 0, 0}));
+  wait_out_the_pause();
+  edit(ann, disc(5, 4, 2));  // another event 10
+  commit();
+  settle(late);
+  settle(bob);
+  EXPECT_EQ(late.eyes->chunks.at({0, 0, 0, 0}).revision, 10u);
+  EXPECT_EQ(bob.eyes->mesh_hash(), mesh_hash());
+}
+
 TEST_F(CommitTest, ForASecondEditsAreRefusedAndThenItTriesAgain) {
   edit(ann, disc(4, 4, 2));
   fail(Code::read_only);
