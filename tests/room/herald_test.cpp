@@ -241,7 +241,12 @@ TEST_F(HeraldTest, NothingIsReadForWhoDoesNotHear) {
   herald.tell_events();
   EXPECT_EQ(clerk.waiting(), 0u);
   herald.leave(1);
-  EXPECT_EQ(clerk.waiting(), 0u);
+  EXPECT_EQ(clerk.run(), 0);
+  enter(2);  // what nobody reads any more is not kept
+  herald.follow(2, 1);
+  context.run();
+  EXPECT_EQ(heard_events(2), 0u);
+  EXPECT_EQ(clerk.waiting(), 1u);
 }
 
 TEST(Herald, TellsWhoseEventsCannotBeReadAndGoesOn) {

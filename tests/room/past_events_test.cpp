@@ -96,9 +96,10 @@ TEST_F(PastEventsTest, WhatIsNotDurableYetIsNotInAPage) {
   PastEvents behind(*clerk, back_at_once, 20);
   (void)behind.find(15);
   clerk->run();
-  behind.add(numbered(21, 21, 3));  // as the room has it
-  EXPECT_EQ((*behind.find(21))->edit.path.size(), 3u);
   EXPECT_EQ((*behind.find(20))->seq, 20u);
+  behind.add(numbered(21, 21 + kWindowEvents));  // 21 itself is too many
+  ASSERT_TRUE(behind.find(21));
+  EXPECT_EQ(*behind.find(21), nullptr);
 }
 
 TEST_F(PastEventsTest, TheWindowIsBoundedByEventsAndByMemory) {
@@ -124,6 +125,15 @@ TEST_F(PastEventsTest, AFewPagesAreKept) {
   std::uint64_t last_of_first = 500;
   while (seq_at(last_of_first + 1) != 0) ++last_of_first;
   EXPECT_EQ(last + 1, last_of_first);  // the first one had been let go of
+}
+
+TEST_F(PastEventsTest, ThePageThatIsReadStays) {
+  (void)past->find(100), clerk->run();
+  std::uint64_t others = 900;  // backwards, so that each is a new page
+  for (std::size_t n = 0; n < 2 * kKeptPages; ++n) {
+    EXPECT_EQ(seq_at(100), 100u) << n;
+    (void)past->find(--others), clerk->run();
+  }
 }
 
 TEST_F(PastEventsTest, AFailureIsToldOnceForEveryAttempt) {
