@@ -4,20 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "server/history/fold.hpp"
-
 namespace earthwork::room {
 namespace {
 
 using protocol::Code;
-
-// A turn applies edits until one of these bounds, then shows them: so that a crowd of editors is
-// meshed and sent for once, and that a flood of edits does not keep everybody waiting. Rows count
-// whether or not they change. An edit of very many is not applied in a turn but prepared between
-// turns.
-constexpr int kTurnEdits = 512;
-constexpr std::size_t kTurnDirtyChunks = 1024;
-constexpr std::uint64_t kTurnRows = 262'144;
 
 // After a journal turned out to be another than it should be, its map is opened anew.
 constexpr std::uint32_t kReopenMs = 1000;
@@ -62,11 +52,16 @@ Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
               [this](std::chrono::milliseconds delay, std::function<void()> task) {
                 run_later(delay, std::move(task));
               }),
-      authors_(opening.restored.authors),
-      keyframer_({map_, [this](std::uint64_t author) { return authors_.state(author); }, *clerk_,
-                  [this] { return workplace(); }, *strand_},
+      keyframer_({map_, [this](std::uint64_t author) { return desk_.authors().state(author); },
+                  *clerk_, [this] { return workplace(); }, *strand_},
                  opening.restored),
-      slicer_(map_) {
+      desk_(
+          map_, commits_, opening.restored.authors, opening.restored.seq, meters_,
+          {.applied = [this](Command& command,
+                             const voxel::Change& change) { return accept(command, change); },
+           .answered = [this](ViewerId viewer, Reply reply,
+                              std::uint64_t seq) { seats_.answer(viewer, std::move(reply), seq); },
+           .full = [this] { return ledger_.full(); }}) {
   used();
 }
 
@@ -145,7 +140,7 @@ protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
   if (const protocol::Failure* trouble = ledger_.trouble(last_used_ms_))
     return tl::unexpected<protocol::Failure>(*trouble);
   const std::uint64_t cost = rows_visited(command.edit, settings_);
-  if (!line_.push({viewer, std::move(command), cost, last_used_ms_}))
+  if (!desk_.push({viewer, std::move(command), cost, last_used_ms_}))
     return protocol::fail(Code::too_large,
                           "path: edits of " + std::to_string(kMaxWaitingPoints) +
                               " points may wait in a map; send it again later",
@@ -198,36 +193,9 @@ void Room::schedule_turn() {
 
 void Room::turn() {
   turn_scheduled_ = false;
-  turn_chunks_ = 0, turn_rows_ = 0;
-  if (slicer_.through()) commit_sliced();
-  for (int n = 0; n < kTurnEdits && turn_chunks_ < kTurnDirtyChunks && turn_rows_ < kTurnRows &&
-                  line_.has_next() && !ledger_.full();
-       ++n)
-    take_next();
+  desk_.take_turn();
+  if (desk_.preparing()) schedule_slice();
   go_on();
-}
-
-// What cannot be applied now keeps its place in line, and its author's later ones wait behind it.
-// So whatever was fresh when its preparation began is fresh at its end.
-void Room::take_next() {
-  const Line::Waiting& next = line_.next();
-  if (slicer_.must_wait(next)) return line_.put_aside();
-  const auto fresh = [&] {
-    return authors_.judge(next.command.author, next.command.id).standing ==
-           Authors::Standing::fresh;
-  };
-  if (Slicer::too_large(next) && fresh()) {
-    slicer_.start(next.command);
-    line_.put_aside();
-    return schedule_slice();
-  }
-  Line::Waiting taken = line_.pop();
-  turn_rows_ += taken.cost;
-  Reply reply = decide(taken.command);
-  // A refusal may rest on what is not durable yet: on a larger id of its author.
-  const auto* applied = std::get_if<protocol::Applied>(&reply);
-  const std::uint64_t seq = applied ? applied->seq : ledger_.accepted_seq();
-  seats_.answer(taken.viewer, std::move(reply), seq);
 }
 
 void Room::schedule_slice() {
@@ -239,52 +207,15 @@ void Room::schedule_slice() {
 // One slice a task: turns, and whatever else the strand has to do, come in between.
 void Room::slice() {
   slice_scheduled_ = false;
-  if (!slicer_.busy()) return;  // closed, or taken back meanwhile
-  slicer_.advance();
-  if (slicer_.through())
-    schedule_turn();
-  else
+  if (!desk_.preparing()) return;  // closed, or taken back meanwhile
+  desk_.prepare();
+  if (desk_.preparing())
     schedule_slice();
+  else
+    schedule_turn();
 }
 
-void Room::commit_sliced() {
-  Line::Waiting done = line_.take(slicer_.author());
-  line_.recall();
-  if (commits_ == Commits::later) before_.keep(map_, slicer_.changed());
-  accept(done.command, slicer_.commit());
-  const std::uint64_t seq = ledger_.accepted_seq();
-  seats_.answer(done.viewer, protocol::Applied{.id = done.command.id, .seq = seq}, seq);
-}
-
-Reply Room::decide(Command& command) {
-  const auto refuse = [&](Code code, const std::string& why) {
-    return protocol::Rejected{
-        .id = command.id,
-        .failure = {code, "id: " + std::to_string(command.id) + why, "id"},
-    };
-  };
-  const auto [standing, seq_before] = authors_.judge(command.author, command.id);
-  switch (standing) {
-    case Authors::Standing::fresh:
-      if (commits_ == Commits::later)
-        before_.keep(map_, static_cast<int>(command.edit.layer), history::stencils(command.edit));
-      accept(command, history::apply(map_, command.edit));
-      return protocol::Applied{.id = command.id, .seq = ledger_.accepted_seq()};
-    case Authors::Standing::repeated:
-      ++meters_->repeated;
-      return protocol::Applied{.id = command.id, .seq = seq_before};
-    case Authors::Standing::out_of_order:
-      return refuse(Code::id_out_of_order, " was not applied, and a larger one was");
-    case Authors::Standing::too_old:
-      break;
-  }
-  return refuse(Code::id_too_old, " is below the last " +
-                                      std::to_string(protocol::kMaxRememberedIds) +
-                                      ", which are all that are remembered");
-}
-
-// The map has the edit, and nothing after it.
-void Room::accept(Command& command, const voxel::Change& change) {
+std::uint64_t Room::accept(Command& command, const voxel::Change& change) {
   history::Event event{.seq = ledger_.accepted_seq() + 1,
                        .time_ms = strand_->now_ms(),
                        .author = command.author,
@@ -292,10 +223,9 @@ void Room::accept(Command& command, const voxel::Change& change) {
                        .edit = std::move(command.edit),
                        .hash = map_.hash()};
   publisher_.changed(change, event.seq);
-  turn_chunks_ += change.dirty.size();
-  authors_.applied(event.author, event.id, event.seq);
   if (commits_ == Commits::later) keyframer_.accepted(event, change.changed);
   ledger_.accept(std::move(event));
+  return ledger_.accepted_seq();
 }
 
 // After every turn, and after every commit: what has gathered goes on its way, and what is durable
@@ -307,21 +237,15 @@ void Room::go_on() {
   publisher_.durable(ledger_.durable().seq);
   publisher_.show();
   ledger_.tell_waiters();
-  if (line_.has_next() && !ledger_.full()) schedule_turn();
+  if (desk_.has_next() && !ledger_.full()) schedule_turn();
 }
 
 void Room::hand_over() {
   if (!ledger_.can_hand_over()) return;
-  if (commits_ == Commits::later) {
-    keyframer_.handed_over();
-    before_.hand_over();
-  }
-  const bool ended =
-      ledger_.hand_over(map_.chunk_count(), [back = workplace().back, weak = weak_from_this()] {
-        back([weak] {
-          if (const auto self = weak.lock()) self->committed();
-        });
-      });
+  desk_.handed_over();
+  if (commits_ == Commits::later) keyframer_.handed_over();
+  const bool ended = ledger_.hand_over(
+      map_.chunk_count(), [this, back = workplace().back] { back([this] { committed(); }); });
   if (ended) settle();
 }
 
@@ -334,33 +258,21 @@ void Room::committed() {
 void Room::settle() {
   const auto events = ledger_.settle(strand_->now_ms());
   if (!events) return take_back(events.error());
-  authors_.keep(ledger_.durable().seq);
+  desk_.durable(ledger_.durable().seq);
   events_.add(*events);
   meters_->edits += events->size();
-  if (commits_ == Commits::at_once) return;
-  before_.forget_handed_over();
-  keyframer_.durable();
+  if (commits_ == Commits::later) keyframer_.durable();
 }
 
-// Whoever waits for a number, waits for one above those that are gone: it has none either.
 void Room::take_back(const protocol::Failure& failure) {
   if (commits_ == Commits::at_once || !may_pass(failure.code))
     return close({.failure = failure, .retry_after_ms = kReopenMs});
-  before_.take_back(map_);
+  seats_.refuse_answers(ledger_.durable().seq, failure);
+  desk_.take_back(failure);
   assert(map_.hash() == ledger_.durable().hash);
-  authors_.take_back();
   keyframer_.taken_back();
   publisher_.taken_back();
   figures_.reset();
-
-  const std::uint64_t durable_seq = ledger_.durable().seq;
-  seats_.refuse_answers(durable_seq, failure);
-  slicer_.clear();
-  line_.recall();
-  while (line_.has_next()) {
-    const Line::Waiting refused = line_.pop();
-    seats_.answer(refused.viewer, protocol::Rejected{refused.command.id, failure}, durable_seq);
-  }
 }
 
 void Room::tell() {
@@ -383,7 +295,7 @@ void Room::once_durable(std::function<void(bool)> then) {
 }
 
 bool Room::retire(std::function<void()> closed) {
-  if (closed_ || !seats_.empty() || !line_.empty() || !ledger_.idle()) return false;
+  if (closed_ || !seats_.empty() || !desk_.line().empty() || !ledger_.idle()) return false;
   closed_ = {Code::unavailable, "the map is put away", "map"};
   publisher_.leave_all();
   keyframer_.finish([self = shared_from_this(), closed = std::move(closed)] {
@@ -408,8 +320,8 @@ bool Room::refresh_meshes(std::size_t budget) {
 }
 
 RoomLoad Room::load() const {
-  return {.waiting_edits = line_.size(),
-          .oldest_wait_ms = line_.oldest_wait_ms(strand_->now_ms()),
+  return {.waiting_edits = desk_.line().size(),
+          .oldest_wait_ms = desk_.line().oldest_wait_ms(strand_->now_ms()),
           .owed_chunks = publisher_.owed_chunks(),
           .dirty_chunks = publisher_.dirty_chunks(),
           .viewers = seats_.size()};
@@ -440,8 +352,7 @@ protocol::Result<StatesPicture> Room::states(std::uint64_t layer) {
 
 void Room::close(const protocol::Bye& bye) {
   closed_ = bye.failure;
-  line_.clear();
-  slicer_.clear();
+  desk_.clear();
   publisher_.leave_all();
   herald_.leave_all();
   ledger_.give_up();

@@ -12,18 +12,15 @@
 #include "protocol/messages.hpp"
 #include "protocol/settings.hpp"
 #include "server/mesh/figures.hpp"
-#include "server/room/authors.hpp"
-#include "server/room/before_images.hpp"
+#include "server/room/edit_desk.hpp"
 #include "server/room/herald.hpp"
 #include "server/room/keyframer.hpp"
 #include "server/room/ledger.hpp"
-#include "server/room/line.hpp"
 #include "server/room/meters.hpp"
 #include "server/room/opening.hpp"
 #include "server/room/past_events.hpp"
 #include "server/room/publisher.hpp"
 #include "server/room/seats.hpp"
-#include "server/room/slicer.hpp"
 #include "server/room/states_picture.hpp"
 #include "server/room/strand.hpp"
 #include "server/room/viewer.hpp"
@@ -162,12 +159,9 @@ class Room : public std::enable_shared_from_this<Room> {
   [[nodiscard]] Workplace workplace();
   void schedule_turn();
   void turn();
-  void take_next();
-  [[nodiscard]] Reply decide(Command& command);
-  void accept(Command& command, const voxel::Change& change);
   void schedule_slice();
   void slice();
-  void commit_sliced();
+  std::uint64_t accept(Command& command, const voxel::Change& change);
   void go_on();
   void hand_over();
   void committed();
@@ -186,17 +180,12 @@ class Room : public std::enable_shared_from_this<Room> {
   std::unique_ptr<journal::Clerk> clerk_;
 
   voxel::Map map_;
-  BeforeImages before_;  // of what is not durable, unless commits are at once
   Ledger ledger_;
   Publisher publisher_;
   PastEvents events_;
   Herald herald_;
-  Authors authors_;
   Keyframer keyframer_;
-  Line line_;
-  Slicer slicer_;                // what it prepares is aside in the line
-  std::size_t turn_chunks_ = 0;  // to be meshed again, of this turn, a chunk once an edit
-  std::uint64_t turn_rows_ = 0;  // that this turn looked at, a row once a stamp
+  EditDesk desk_;
   Seats seats_;
   ViewerId last_viewer_ = 0;
   std::optional<RoomFigures> figures_;  // the last ones asked for
