@@ -68,7 +68,10 @@ struct FaultVfs::Parts {
   }
   static int sync(sqlite3_file* file, int flags) {
     FaultVfs& vfs = self(file);
-    if (vfs.dead_ || ++vfs.syncs_ >= vfs.no_sync_at_) return SQLITE_IOERR_FSYNC;
+    ++vfs.syncs_;
+    const bool failing =
+        vfs.syncs_ >= vfs.no_sync_at_ && vfs.syncs_ - vfs.no_sync_at_ < vfs.syncs_failing_;
+    if (vfs.dead_ || failing) return SQLITE_IOERR_FSYNC;
     const int result = real_of(file)->pMethods->xSync(real_of(file), flags);
     if (vfs.watching_ && as_file(file).path != nullptr)
       vfs.parts_->synced[as_file(file).path] = read_bytes(as_file(file).path);
@@ -150,6 +153,7 @@ void FaultVfs::lose_power(Loss loss, std::uint64_t seed) {
   dead_ = true;
   std::mt19937_64 lot(seed);
   for (const auto& [path, synced] : parts_->synced) {
+    if (!std::filesystem::exists(path)) continue;  // it has another name now
     std::string now = read_bytes(path);
     std::string after = synced;
     if (loss == Loss::torn) {

@@ -22,12 +22,16 @@ class FaultVfs {
   FaultVfs(const FaultVfs&) = delete;
   FaultVfs& operator=(const FaultVfs&) = delete;
 
-  /// Counted from the call on; the write and sync of that number, from 1, and all later ones fail.
+  /// Counted from the call on; the write and sync of that number, from 1, and all later ones fail,
+  /// or as many syncs as said.
   void fill_disk_at_write(std::size_t number) { full_at_ = writes_ + number; }
-  void fail_at_sync(std::size_t number) { no_sync_at_ = syncs_ + number; }
+  void fail_at_sync(std::size_t number, std::size_t many = kNever) {
+    no_sync_at_ = syncs_ + number;
+    syncs_failing_ = many;
+  }
   void mend();
 
-  /// From now on remembers, of what is written and not synced, what was there before.
+  /// Of the files opened from now on, remembers what of them is synced.
   void watch();
   /// The power fails: of what was not synced each sector of 512 bytes is there or not, by lot, or
   /// all of it is lost; later writes and syncs fail.
@@ -42,7 +46,7 @@ class FaultVfs {
  private:
   friend struct Parts;
   std::size_t writes_ = 0, syncs_ = 0;
-  std::size_t full_at_ = kNever, no_sync_at_ = kNever;
+  std::size_t full_at_ = kNever, no_sync_at_ = kNever, syncs_failing_ = 0;
   bool watching_ = false, dead_ = false;
   std::unique_ptr<Parts> parts_;
 };

@@ -146,14 +146,35 @@ TEST(MapFileFaults, AFailedSyncLeavesNoDoubt) {
   }
 }
 
+// What a kill right after the failure would leave agrees with what was answered.
+TEST(MapFileFaults, AfterOneFailedSyncTheFileHoldsWhatTheJournalSays) {
+  for (std::size_t at = 1; at <= 6; ++at) {
+    SCOPED_TRACE(at);
+    TemporaryFolder folder;
+    FaultVfs disk;
+    Writer writer(folder / "map.earthwork");
+    disk.fail_at_sync(at, 1);
+    while (writer.append(5) && disk.syncs() < 100) {
+    }
+    const auto copy = folder / "copy.earthwork";
+    for (const char* suffix : {"", "-wal"})
+      write_bytes(copy.string() + suffix, read_bytes((folder / "map.earthwork").string() + suffix));
+    const auto left = open_map_file(copy, Access::read);
+    ASSERT_TRUE(left) << left.error().detail;
+    EXPECT_EQ((*left)->last_seq(), writer.journal->last_seq());
+    EXPECT_EQ((*left)->last_seq(), writer.acknowledged);
+    EXPECT_TRUE(writer.append(1)) << writer.failure->detail;
+  }
+}
+
 TEST(MapFileFaults, ALossOfPowerTakesNothingThatWasAcknowledged) {
   for (const auto loss : {FaultVfs::Loss::whole, FaultVfs::Loss::torn}) {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
       SCOPED_TRACE(std::to_string(static_cast<int>(loss)) + " " + std::to_string(seed));
       TemporaryFolder folder;
       auto disk = std::make_unique<FaultVfs>();
-      Writer writer(folder / "map.earthwork");
       disk->watch();
+      Writer writer(folder / "map.earthwork");
       // It fails in the middle of something: the disk refuses from some write on, and then is gone.
       disk->fill_disk_at_write(1 + seed * 11 % 150);
       if (seed % 3 == 0) disk->fail_at_sync(1 + seed / 3);
