@@ -27,7 +27,7 @@ const CachedMesh* MeshCache::find(const voxel::ChunkKey& key) const {
 void MeshCache::restore(const voxel::Map& map, std::span<const journal::ChunkAge> ages) {
   assert(stale_.empty() && meshes_.empty());
   const voxel::ChunkRect extent = map.grid().extent();
-  stale_.reserve(ages.size() + ages.size() / 4);
+  stale_.reserve(2 * ages.size());
   for (const auto& [key, seq] : ages) {
     const voxel::Chunk* chunk = map.find(key);
     const bool corner = chunk && chunk->filled(0, 0);
@@ -42,17 +42,28 @@ void MeshCache::restore(const voxel::Map& map, std::span<const journal::ChunkAge
       if (shows) stale.bare = false;
     }
   }
-  bare_ = static_cast<std::size_t>(std::count_if(
-      stale_.begin(), stale_.end(), [](const auto& entry) { return entry.second.bare; }));
+  for (auto& [key, stale] : stale_) without_mesh_ += stale.without_mesh = !stale.bare;
 }
 
 void MeshCache::mark_stale(std::span<const voxel::ChunkKey> keys) {
-  for (const voxel::ChunkKey& key : keys) {
-    Stale& stale = stale_[key];
-    if (stale.bare) --bare_;
-    stale.bare = false;
-    stale.revision = 0;
-  }
+  for (const voxel::ChunkKey& key : keys) touch(key);
+}
+
+void MeshCache::touch(const voxel::ChunkKey& key) {
+  const auto [place, first] = stale_.try_emplace(key);
+  Stale& stale = place->second;
+  stale.revision = 0;
+  if (!first && !stale.bare) return;
+  stale.bare = false;
+  const CachedMesh* mesh = find(key);
+  stale.without_mesh = !mesh || mesh->removed;
+  if (stale.without_mesh) ++without_mesh_;
+}
+
+void MeshCache::forget_stale(StaleOnes::iterator place) {
+  if (place == stale_.end()) return;
+  if (place->second.without_mesh) --without_mesh_;
+  stale_.erase(place);
 }
 
 Forerunner MeshCache::forerunner(const voxel::ChunkKey& key, std::uint64_t seq) const {
@@ -67,16 +78,14 @@ Forerunner MeshCache::forerunner(const voxel::ChunkKey& key, std::uint64_t seq) 
 
 void MeshCache::put(const voxel::ChunkKey& key, std::optional<CachedMesh> made) {
   if (made) replace(key, std::move(made));
-  const auto found = stale_.find(key);
-  if (found == stale_.end()) return;
-  if (found->second.bare) --bare_;
-  stale_.erase(found);
+  forget_stale(stale_.find(key));
 }
 
 // The revision of the next one is the seq as of which it is made: that is never too low.
 void MeshCache::take_back(const voxel::ChunkKey& key, Forerunner before) {
   replace(key, std::move(before.mesh));
-  mark_stale(std::span(&key, 1));
+  forget_stale(stale_.find(key));
+  touch(key);
   stale_[key].seen_unknown = before.seen_unknown;
 }
 
@@ -107,15 +116,6 @@ bool MeshCache::may_have_mesh(const voxel::ChunkKey& key) const {
   if (const auto found = stale_.find(key); found != stale_.end()) return !found->second.bare;
   const auto found = meshes_.find(key);
   return found != meshes_.end() && !found->second.removed;
-}
-
-std::size_t MeshCache::count() const {
-  const auto meshed = [&](const auto& entry) {
-    const auto found = meshes_.find(entry.first);
-    return found != meshes_.end() && !found->second.removed;
-  };
-  const auto both = std::count_if(stale_.begin(), stale_.end(), meshed);
-  return totals_.chunks + stale_.size() - bare_ - static_cast<std::size_t>(both);
 }
 
 std::vector<voxel::ChunkKey> MeshCache::keys() const {

@@ -65,8 +65,12 @@ class MeshCache {
   /// Every chunk that `may_have_mesh`, and those whose mesh was removed, here or before the start;
   /// in order.
   [[nodiscard]] std::vector<voxel::ChunkKey> keys() const;
-  /// How many chunks `may_have_mesh`; takes time with the stale ones.
-  [[nodiscard]] std::size_t count() const;
+  /// `keys` names it.
+  [[nodiscard]] bool knows(const voxel::ChunkKey& key) const {
+    return stale_.contains(key) || meshes_.contains(key);
+  }
+  /// How many chunks `may_have_mesh`.
+  [[nodiscard]] std::size_t count() const { return totals_.chunks + without_mesh_; }
 
   /// True figures only when nothing is stale.
   [[nodiscard]] const MeshTotals& totals() const { return totals_; }
@@ -78,14 +82,19 @@ class MeshCache {
   struct Stale {
     std::uint64_t revision = 0;  // of its next mesh; 0: the seq as of which that is made
     bool seen_unknown = false;
-    bool bare = false;  // nothing that its cells reach into is filled: it has no mesh
+    bool bare = false;          // nothing that its cells reach into is filled: it has no mesh
+    bool without_mesh = false;  // counted there
   };
 
+  using StaleOnes = std::unordered_map<voxel::ChunkKey, Stale, voxel::ChunkKeyHash>;
+
+  void touch(const voxel::ChunkKey& key);
+  void forget_stale(StaleOnes::iterator place);
   void replace(const voxel::ChunkKey& key, std::optional<CachedMesh> mesh);
 
   std::map<voxel::ChunkKey, CachedMesh> meshes_;
-  std::unordered_map<voxel::ChunkKey, Stale, voxel::ChunkKeyHash> stale_;
-  std::size_t bare_ = 0;  // of the stale ones
+  StaleOnes stale_;
+  std::size_t without_mesh_ = 0;  // of the stale ones: have no mesh now, and may have one
   MeshTotals totals_;
 };
 

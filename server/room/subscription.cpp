@@ -17,17 +17,19 @@ std::vector<voxel::ChunkKey> Subscription::candidates(const ViewArea& area,
                                                       const MeshCache& meshes) const {
   const protocol::ChunkRange& range = area.range();
   std::vector<voxel::ChunkKey> keys;
-  if (claim_ || range.count() > meshes.count()) {
-    // Removed chunks are listed too: a viewer that claims to have some must hear of them.
+  // Removed chunks are listed too where something is claimed: who claims to have some must hear.
+  const auto wanted = [&](const voxel::ChunkKey& key) {
+    return claim_ ? meshes.knows(key) : meshes.may_have_mesh(key);
+  };
+  if (range.count() > meshes.count()) {
     for (const voxel::ChunkKey& key : meshes.keys())
-      if (area.contains(key) && (claim_ || meshes.may_have_mesh(key))) keys.push_back(key);
+      if (area.contains(key) && wanted(key)) keys.push_back(key);
     return keys;
   }
   for (std::int32_t layer = 0; layer < static_cast<std::int32_t>(layers_); ++layer)
     for (std::int32_t x = range.x0; x < range.x1; ++x)
       for (std::int32_t y = range.y0; y < range.y1; ++y)
-        if (const voxel::ChunkKey key{layer, x, y, 0}; meshes.may_have_mesh(key))
-          keys.push_back(key);
+        if (const voxel::ChunkKey key{layer, x, y, 0}; wanted(key)) keys.push_back(key);
   return keys;
 }
 
