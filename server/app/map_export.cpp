@@ -47,11 +47,11 @@ Result<Shown> export_recording(journal::Journal& journal, const MapFlags& flags,
   });
 }
 
-Result<Shown> export_bytes(journal::Journal& journal, Format format, const MapFlags& flags,
+Result<Shown> export_bytes(const StoredMap& stored, Format format, const MapFlags& flags,
                            NewFile& out) {
-  const auto restored = salvage(journal, flags.seq);
+  const auto restored = salvage(stored, flags.seq);
   if (!restored) return tl::unexpected<Failure>(restored.error());
-  const auto bytes = format == Format::glb ? glb_of(*restored, journal.identity().settings)
+  const auto bytes = format == Format::glb ? glb_of(*restored, stored.journal->identity().settings)
                                            : png_of(*restored, flags.layer.value_or(0));
   if (!bytes) return tl::unexpected<Failure>(bytes.error());
   return out.write(*bytes).map([&restored] { return Shown{restored->seq, restored->hash}; });
@@ -92,9 +92,8 @@ int export_map(const MapFlags& flags) {
   if (!stored) return refuse(stored.error());
 
   NewFile out(flags.file);
-  const auto shown = *format == Format::recording
-                         ? export_recording(*stored->journal, flags, out)
-                         : export_bytes(*stored->journal, *format, flags, out);
+  const auto shown = *format == Format::recording ? export_recording(*stored->journal, flags, out)
+                                                  : export_bytes(*stored, *format, flags, out);
   if (!shown) return refuse(shown.error());
   if (const auto finished = out.finish(); !finished) return refuse(finished.error());
   return answer({{"name", stored->name},

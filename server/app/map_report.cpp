@@ -70,14 +70,13 @@ void try_to_serve(const std::filesystem::path& path, journal::Audit& audit) {
 }
 
 /// Says on stderr what of a damaged map can still be had.
-void tell_what_is_left(StoredMap& stored, const journal::Audit& audit) {
+void tell_what_is_left(const StoredMap& stored, const journal::Audit& audit) {
   const std::string command = "map export " + stored.name + " OUT";
   const std::string seq = std::to_string(audit.events);
   warn("the log is good up to seq " + seq + ": " + command + " --seq " + seq + " still gives that");
   const std::uint64_t last = stored.journal->last_seq();
   if (audit.events == last) return;
-  const auto end = journal::restore(*stored.journal, last, journal::Trust::salvage);
-  if (end)
+  if (const auto end = journal::restore(*stored.journal, last, journal::Trust::salvage))
     warn(command + " still gives seq " + std::to_string(last) + ", from keyframe " +
          std::to_string(end->keyframe_seq) + " on");
 }
@@ -112,7 +111,7 @@ int list_maps(const MapFlags& flags) {
 int show_map(const MapFlags& flags) {
   const auto stored = open_stored_map(flags);
   if (!stored) return refuse(stored.error());
-  const auto restored = salvage(*stored->journal, {});
+  const auto restored = salvage(*stored, {});
   if (!restored) return refuse(restored.error());
   const auto keyframes = stored->journal->keyframes();
   ordered_json line =
@@ -124,7 +123,7 @@ int show_map(const MapFlags& flags) {
 int hash_map(const MapFlags& flags) {
   const auto stored = open_stored_map(flags);
   if (!stored) return refuse(stored.error());
-  const auto restored = salvage(*stored->journal, flags.seq);
+  const auto restored = salvage(*stored, flags.seq);
   if (!restored) return refuse(restored.error());
   return answer({{"seq", restored->seq}, {"hash", hex(restored->hash)}});
 }
@@ -139,6 +138,7 @@ int verify_map(const MapFlags& flags) {
   if (!stored) return refuse(stored.error());
   auto audit = journal::audit(*stored->journal);
   if (!audit) return refuse(audit.error());
+  for (protocol::Failure& finding : audit->findings) finding.detail = located(*stored, finding);
   if (!audit->sound()) {
     const int damaged = answer_audit(stored->name, *audit);
     tell_what_is_left(*stored, *audit);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
+#include <map>
 #include <vector>
 
 #include "server/history/event.hpp"
@@ -29,7 +29,7 @@ class AuthorCheck {
     std::vector<AuthorState::Applied> applied;  // not empty
     bool met = false;                           // the log has come to the last of them
   };
-  std::unordered_map<std::uint64_t, Put> put_;
+  std::map<std::uint64_t, Put> put_;
 };
 
 }  // namespace earthwork::journal

@@ -315,12 +315,60 @@ TEST_F(MapCommand, SaysWhenADamagedKeyframeIsPassedOver) {
       const Outcome exported = map({"export", "ten", folder_ / "ten.glb"});
       EXPECT_EQ(exported.exit_code, 0);
       EXPECT_EQ(report(exported)["hash"], hex(ten_events()[9].hash));
-      EXPECT_TRUE(contains(exported.err, "keyframes: seq 8")) << exported.err;
+      EXPECT_TRUE(contains(exported.err, "ten.earthwork: keyframes: seq 8")) << exported.err;
       EXPECT_TRUE(contains(exported.err, "executed again from 0")) << exported.err;
     }
     flip(place);
   }
   EXPECT_TRUE(keyframe_found);
+}
+
+// Every sum is right, as a flipped byte could not leave them.
+TEST_F(MapCommand, NamesAnEventThatDidSomethingElse) {
+  std::filesystem::remove(file("ten"));
+  auto events = ten_events();
+  auto made = journal::create_map_file(file("ten"), journal::small_identity());
+  ASSERT_TRUE(made);
+  events[4].hash ^= 1;
+  ASSERT_TRUE((*made)->append(0, events));
+  made->reset();
+
+  const Outcome verified = map({"verify", "ten"});
+  EXPECT_EQ(verified.exit_code, 1);
+  EXPECT_EQ(report(verified)["findings"],
+            json{file("ten") + ": events: seq 5: the stored hash is " + hex(events[4].hash) +
+                 ", executed it is " + hex(ten_events()[4].hash)});
+  EXPECT_EQ(done({"hash", "ten", "--seq", "4"})["hash"], hex(events[3].hash));
+  const Outcome refused = map({"hash", "ten"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_TRUE(contains(refused.err, "ten.earthwork: events: seq 5")) << refused.err;
+}
+
+TEST_F(MapCommand, KeepsWhatACrashHasLeft) {
+  const auto made = journal::create_map_file(file("open"), journal::small_identity());
+  ASSERT_TRUE(made);
+  journal::fill(**made, ten_events(), {4});
+  // As a kill leaves them: the file, and what SQLite has not moved into it.
+  for (const char* part : {"", "-wal", "-tip"})
+    std::filesystem::copy_file(file("open") + part, file("ten") + part,
+                               std::filesystem::copy_options::overwrite_existing);
+  ASSERT_GT(std::filesystem::file_size(file("ten") + "-wal"), 0u);
+  EXPECT_EQ(done({"hash", "ten"})["hash"], hex(ten_events()[9].hash));
+  EXPECT_EQ(done({"verify", "ten"})["events"], 10);
+  EXPECT_EQ(done({"export", "ten", folder_ / "ten.glb"})["seq"], 10);
+}
+
+TEST_F(MapCommand, MissesTheEventsOfAWriteAheadFileThatIsGone) {
+  const auto made = journal::create_map_file(file("open"), journal::small_identity());
+  ASSERT_TRUE(made);
+  journal::fill(**made, ten_events(), {});
+  for (const char* part : {"", "-tip"})
+    std::filesystem::copy_file(file("open") + part, file("ten") + part,
+                               std::filesystem::copy_options::overwrite_existing);
+  const Outcome verified = map({"verify", "ten"});
+  EXPECT_EQ(verified.exit_code, 1);
+  EXPECT_LT(report(verified)["events"], 10);
+  EXPECT_TRUE(contains(verified.err, "ten.earthwork")) << verified.err;
 }
 
 TEST_F(MapCommand, FindsAFlippedByteOrIsRightAllTheSame) {
