@@ -2,7 +2,6 @@
 
 #include <sqlite3.h>
 
-#include <cassert>
 #include <cerrno>
 #include <utility>
 
@@ -147,7 +146,13 @@ Result<std::int64_t> Database::integer(const char* sql) {
 // A commit that fails for want of room has not written its last frame, and the frames before it
 // count for nothing. When syncing fails, all of them stand in the log: whether they count is known
 // once the log was read again.
-Result<void> Database::transact(const std::function<Result<void>()>& work) {
+Result<void> Database::transact(Durable durable, const std::function<Result<void>()>& work) {
+  if (durable != durable_) {
+    const bool now = durable == Durable::now;
+    if (auto set = execute(now ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL"); !set)
+      return set;
+    durable_ = durable;
+  }
   if (auto begun = execute("BEGIN IMMEDIATE"); !begun) return begun;
   Result<void> done = work();
   if (done) {

@@ -22,7 +22,7 @@ namespace earthwork::journal {
 class Database {
  public:
   enum class Mode {
-    write,  ///< Write-ahead log; a commit is durable. Waits 2 s for another program that writes.
+    write,  ///< Write-ahead log. Waits 2 s for another program that writes.
     read,   ///< Neither changes nor creates anything, recovery of the log happens in memory. Nobody
             ///< writes meanwhile.
     build,  ///< A file that nobody else knows yet, which is synced as a whole once it is built.
@@ -39,10 +39,14 @@ class Database {
   /// One that gives one row with one integer.
   [[nodiscard]] protocol::Result<std::int64_t> integer(const char* sql);
 
+  enum class Durable {
+    now,    ///< When it succeeds.
+    later,  ///< With the next that is durable now; a loss of power before that takes it as a whole.
+  };
   /// Does `work` as a whole or, when it or the commit fails, not at all; unless `doubtful` says
   /// that only opening the file again will tell.
   [[nodiscard]] protocol::Result<void> transact(
-      const std::function<protocol::Result<void>()>& work);
+      Durable durable, const std::function<protocol::Result<void>()>& work);
   [[nodiscard]] bool doubtful() const { return doubtful_; }
 
   /// The failure behind an SQLite result code, just given.
@@ -61,6 +65,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
   std::string name_;
   bool doubtful_ = false;
+  Durable durable_ = Durable::now;  // what commits are now
 };
 
 /// A prepared statement of a database, which outlives it. What it cannot do it says when it is run.

@@ -20,6 +20,7 @@ using protocol::Code;
 using protocol::fail;
 using protocol::Failure;
 using protocol::Result;
+using Durable = Database::Durable;
 
 /// Where a log ends, and what says that it should end later.
 struct LogEnd {
@@ -92,7 +93,7 @@ class MapFile final : public Journal {
   [[nodiscard]] Result<void> connect(Database::Mode mode);
   [[nodiscard]] Result<void> to_write();
   [[nodiscard]] Result<void> to_read();
-  [[nodiscard]] Result<void> write(const std::function<Result<void>()>& work);
+  [[nodiscard]] Result<void> write(Durable durable, const std::function<Result<void>()>& work);
   [[nodiscard]] Result<std::uint64_t> newest() { return newest_keyframe(*database_); }
   [[nodiscard]] Failure look_again(Failure failure);
   void witness();
@@ -154,7 +155,7 @@ Result<void> MapFile::to_write() {
     if (auto reading = connect(Database::Mode::read); !reading) return reading;
   if (!connected || !refused_keyframe_) return connected;
   // It was told to have failed, and may be there all the same.
-  auto removed = write([&] {
+  auto removed = write(Durable::later, [&] {
     return Statement(*database_, "keyframes", "DELETE FROM keyframes WHERE seq = ?")
         .run(*refused_keyframe_);
   });
@@ -178,8 +179,10 @@ Failure MapFile::look_again(Failure failure) {
   return failure;
 }
 
-Result<void> MapFile::write(const std::function<Result<void>()>& work) {
-  auto done = database_->transact(work);
+// Only events must be durable at once: states are made again from them, and are synced with the
+// next batch.
+Result<void> MapFile::write(Durable durable, const std::function<Result<void>()>& work) {
+  auto done = database_->transact(durable, work);
   if (!done) return tl::unexpected<Failure>(look_again(std::move(done.error())));
   return done;
 }
@@ -211,7 +214,7 @@ Result<void> MapFile::append(std::uint64_t expected_seq, std::span<const Event> 
   }
   const LogEnd after{
       .seq = events.back().seq, .promised = events.back().seq, .hash = events.back().hash};
-  auto done = write([&] { return append_batch(*database_, expected_seq, events); });
+  auto done = write(Durable::now, [&] { return append_batch(*database_, expected_seq, events); });
   const bool there_after_all =
       !done && writing_ && end_.seq == after.seq && end_.hash == after.hash;
   if (!done && !there_after_all) return done;
@@ -238,12 +241,12 @@ Result<void> MapFile::put_chunks(std::span<const ChunkState> states) {
     if (state.seq <= *since || state.seq > end_.seq)
       return fail(Code::bad_state, "a chunk's state of event " + std::to_string(state.seq) +
                                        " belongs to no keyframe to come");
-  return write([&] { return put_chunk_rows(*database_, states); });
+  return write(Durable::later, [&] { return put_chunk_rows(*database_, states); });
 }
 
 Result<void> MapFile::put_authors(std::span<const AuthorState> authors) {
   if (auto ready = to_write(); !ready) return ready;
-  return write([&] { return put_author_rows(*database_, authors); });
+  return write(Durable::later, [&] { return put_author_rows(*database_, authors); });
 }
 
 Result<void> MapFile::put_keyframe(const Keyframe& keyframe) {
@@ -253,7 +256,7 @@ Result<void> MapFile::put_keyframe(const Keyframe& keyframe) {
   if (keyframe.seq <= *since || keyframe.seq > end_.seq)
     return fail(Code::bad_state, "a keyframe of event " + std::to_string(keyframe.seq) +
                                      " cannot follow that of " + std::to_string(*since));
-  auto done = write([&] { return put_keyframe_row(*database_, keyframe); });
+  auto done = write(Durable::later, [&] { return put_keyframe_row(*database_, keyframe); });
   if (!done && !writing_) refused_keyframe_ = keyframe.seq;
   if (done || !writing_) return done;
   const auto found = newest();

@@ -103,7 +103,7 @@ Result<void> cut(Database& database, std::uint64_t seq) {
 
 Result<void> change_copy(Database database, std::uint64_t epoch, std::int64_t created_ms,
                          std::optional<std::uint64_t> seq) {
-  auto done = database.transact([&]() -> Result<void> {
+  auto done = database.transact(Database::Durable::now, [&]() -> Result<void> {
     auto identity = read_identity(database);
     if (!identity) return tl::unexpected<Failure>(std::move(identity.error()));
     identity->epoch = epoch;

@@ -75,7 +75,7 @@ Result<void> check_numbers(Database& database) {
 }  // namespace
 
 Result<void> make_map_schema(Database& database, const Identity& identity) {
-  return database.transact([&]() -> Result<void> {
+  return database.transact(Database::Durable::now, [&]() -> Result<void> {
     for (const char* statement : kSchema)
       if (auto made = database.execute(statement); !made) return made;
     const std::string numbers = "PRAGMA application_id=" + std::to_string(kMapApplicationId) +

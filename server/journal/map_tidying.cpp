@@ -79,7 +79,7 @@ Result<void> MapTidying::remove_unfinished(Database& database, Round& round) {
 
 Result<bool> MapTidying::run(Database& database, std::size_t most) {
   Round round{.kept = {}, .rows_left = most, .looks_left = most * kLooksPerRow, .at = at_};
-  auto tidied = database.transact([&]() -> Result<void> {
+  auto tidied = database.transact(Database::Durable::later, [&]() -> Result<void> {
     if (auto dropped = drop_keyframes(database); !dropped) return dropped;
     const auto keyframes = read_keyframes(database);
     if (!keyframes) return tl::unexpected<Failure>(keyframes.error());

@@ -120,7 +120,7 @@ TEST(MapFileFaults, AFullDiskRefusesAndRecoversOnTheSameJournal) {
 // or known not to be, or the next append says bad_state.
 TEST(MapFileFaults, AFailedSyncLeavesNoDoubt) {
   const std::size_t syncs = count_all().syncs;
-  ASSERT_GT(syncs, 8u);
+  ASSERT_GE(syncs, 8u);
   for (std::size_t at = 1; at <= syncs; ++at) {
     SCOPED_TRACE(at);
     TemporaryFolder folder;
