@@ -116,6 +116,8 @@ void FaultVfs::Parts::fill_methods() {
     return real_of(f)->pMethods->xDeviceCharacteristics(real_of(f));
   };
   methods.xShmMap = [](sqlite3_file* f, int page, int size, int extend, void volatile** out) {
+    const FaultVfs& vfs = self(f);
+    if (extend != 0 && vfs.writes_ + 1 >= vfs.full_at_) return SQLITE_FULL;
     return real_of(f)->pMethods->xShmMap(real_of(f), page, size, extend, out);
   };
   methods.xShmLock = [](sqlite3_file* f, int offset, int n, int flags) {

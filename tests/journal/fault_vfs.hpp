@@ -12,7 +12,8 @@
 namespace earthwork::journal {
 
 /// SQLite's default as long as it lives. What is opened through it is closed before. Files that
-/// SQLite shares (-shm) are left alone: they may be lost at any time.
+/// SQLite shares (-shm) find no room on a full disk, and are left alone otherwise: they may be lost
+/// at any time.
 class FaultVfs {
  public:
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();

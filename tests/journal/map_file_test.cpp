@@ -281,8 +281,10 @@ TEST_F(MapFile, IsOpenedOnAFullDiskAndWrittenWhenThereIsRoom) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::disk_full);
   EXPECT_EQ(journal->events(1, 1 << 20).value().size(), 5u);
+  EXPECT_FALSE(std::filesystem::exists(path.string() + "-tip")) << "nothing was begun";
   disk.mend();
   EXPECT_TRUE(journal->append(5, events));
+  EXPECT_TRUE(std::filesystem::exists(path.string() + "-tip"));
 }
 
 TEST_F(MapFile, IsForkedWhole) {
