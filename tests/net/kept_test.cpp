@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <thread>
 #include <variant>
+#include <vector>
 
 #include "protocol/messages.hpp"
 #include "server/journal/shelf.hpp"
@@ -27,11 +29,11 @@ namespace fs = std::filesystem;
 
 const std::string kKey = "00112233445566778899aabbccddeeff";
 
-/// Somebody with the key above who joined a map, or tried to.
+/// Somebody with the key above, or another one, who joined a map, or tried to.
 class Guest {
  public:
-  Guest(std::uint16_t port, const std::string& map) : client_(port) {
-    client_.text(R"({"type":"hello","protocol":[1,1],"name":"ann","key":")" + kKey + "\"}");
+  Guest(std::uint16_t port, const std::string& map, const std::string& key = kKey) : client_(port) {
+    client_.text(R"({"type":"hello","protocol":[1,1],"name":"ann","key":")" + key + "\"}");
     hear<protocol::Welcome>();
     client_.text(R"({"type":"join","map":")" + map + "\",\"id\":2}");
     answer = next();
@@ -275,6 +277,36 @@ TEST_F(KeptTest, ManyMapsAreKnownAndFewAreOpen) {
   Guest guest(port, "map7");
   EXPECT_EQ(guest.paint(1, 10), 1u);
   EXPECT_EQ(metric("earthwork_open_maps"), 1);
+}
+
+// Rooms are put away, asked for and asked about at every moment of each other.
+TEST_F(KeptTest, NothingIsLostWhileMapsComeAndGo) {
+  for (const char* map : {"a", "b", "c"}) create(map);
+  restart(10ms);
+  std::atomic<bool> painted{false};
+  std::atomic<int> unanswered{0};
+  std::thread asker([&] {
+    while (!painted)
+      for (const char* target : {"/api/maps/a/figures", "/api/maps/b", "/metrics"})
+        if (http_get(port, target).status != 200) ++unanswered;
+  });
+  const auto paint = [this](const std::string& map, int pause_ms) {
+    const std::string key = kKey.substr(1) + map;
+    for (int i = 1; i <= 12; ++i) {
+      EXPECT_EQ(Guest(port, map, key).paint(i, 5.0 * i), static_cast<unsigned>(i)) << map;
+      std::this_thread::sleep_for(pause_ms * i * 1ms);
+    }
+  };
+  {
+    std::vector<std::jthread> painters;
+    int pause_ms = 5;
+    for (const char* map : {"a", "b", "c"}) painters.emplace_back(paint, map, pause_ms++);
+  }
+  painted = true;
+  asker.join();
+  EXPECT_EQ(unanswered, 0);
+  restart();
+  for (const char* map : {"a", "b", "c"}) EXPECT_EQ(describe(map).at("seq"), 12);
 }
 
 }  // namespace
