@@ -198,6 +198,12 @@ TEST(Restore, RefusesChunksThatTheMapCannotHave) {
   }
 }
 
+TEST(Restore, RefusesChunksFromAfterTheirKeyframe) {
+  TamperedJournal journal(journal_of(ten_events(), {1}));
+  journal.change_chunk = [](ChunkState& state) { state.seq = 2; };
+  expect_salvaged_from_the_start(journal, "chunks: seq 2: a chunk that the map cannot have");
+}
+
 TEST(Restore, RefusesAuthorsWhoseIdsDoNotIncrease) {
   TamperedJournal journal(journal_of(ten_events(), {8}));
   journal.change_authors = [](std::vector<AuthorState>& all) {
