@@ -36,6 +36,19 @@ void add_serve(CLI::App& app, earthwork::app::ServeFlags& flags) {
                     "address and localhost");
 }
 
+/// Whoever starts the program may have closed its streams. Then what is opened first would take
+/// their numbers, and results and logs would end up in it: in a map's file or a socket.
+void occupy_closed_streams() {
+  constexpr int kLastStream = 2;
+  for (;;) {
+    std::FILE* nothing = std::fopen("/dev/null", "r");
+    if (nothing == nullptr) return;
+    if (fileno(nothing) <= kLastStream) continue;  // it stays open
+    std::fclose(nothing);
+    return;
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Earthwork: maps that many can paint together"};
   app.set_version_flag("--version", kVersion);
@@ -58,6 +71,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_closed_streams();
   try {
     spdlog::set_default_logger(spdlog::stderr_color_mt("earthwork"));
     return run(argc, argv);

@@ -138,6 +138,18 @@ TEST_F(MapCommand, RefusesWrongUseInOneLine) {
   EXPECT_TRUE(contains(nowhere.err, folder_ / "nowhere"));
 }
 
+TEST_F(MapCommand, FailsWhereNobodyTakesItsResults) {
+  for (const std::string stdout_is : {">/dev/full", ">&-"}) {
+    const Outcome outcome =
+        Program("/bin/sh", {"-c", "exec \"$0\" map list --data \"$1\" " + stdout_is,
+                            EARTHWORK_BIN_DIR "/earthwork-server", data_})
+            .wait();
+    EXPECT_EQ(outcome.exit_code, 1) << stdout_is;
+    EXPECT_EQ(lines(outcome.err), 1) << outcome.err;
+  }
+  EXPECT_LT(read_file(data_ + "/lock").size(), 20u);  // a pid, and not the list
+}
+
 TEST_F(MapCommand, ListsEveryMap) {
   done({"fork", "ten", "five", "--seq", "5"});
   std::ofstream(file("broken")) << "not a map";
