@@ -107,7 +107,6 @@ class MapFile final : public Journal {
   bool writing_ = false;  // database_ can be written to, and nothing about it is in doubt
   LogEnd end_;
   std::optional<TipFile> tip_;
-  std::optional<std::uint64_t> refused_keyframe_;  // that may be in the file nevertheless
   MapTidying tidying_;
 };
 
@@ -153,14 +152,7 @@ Result<void> MapFile::to_write() {
   auto connected = connect(Database::Mode::write);
   if (!connected && !database_)
     if (auto reading = connect(Database::Mode::read); !reading) return reading;
-  if (!connected || !refused_keyframe_) return connected;
-  // It was told to have failed, and may be there all the same.
-  auto removed = write(Durable::later, [&] {
-    return Statement(*database_, "keyframes", "DELETE FROM keyframes WHERE seq = ?")
-        .run(*refused_keyframe_);
-  });
-  if (removed) refused_keyframe_.reset();
-  return removed;
+  return connected;
 }
 
 Result<void> MapFile::to_read() {
@@ -256,11 +248,7 @@ Result<void> MapFile::put_keyframe(const Keyframe& keyframe) {
   if (keyframe.seq <= *since || keyframe.seq > end_.seq)
     return fail(Code::bad_state, "a keyframe of event " + std::to_string(keyframe.seq) +
                                      " cannot follow that of " + std::to_string(*since));
-  auto done = write(Durable::later, [&] { return put_keyframe_row(*database_, keyframe); });
-  if (!done && !writing_) refused_keyframe_ = keyframe.seq;
-  if (done || !writing_) return done;
-  const auto found = newest();
-  return found && *found == keyframe.seq ? Result<void>() : done;
+  return write(Durable::later, [&] { return put_keyframe_row(*database_, keyframe); });
 }
 
 Result<bool> MapFile::tidy(std::size_t most) {

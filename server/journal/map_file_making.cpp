@@ -132,7 +132,9 @@ Result<std::unique_ptr<Journal>> create_map_file(const std::filesystem::path& pa
     return tl::unexpected<Failure>(std::move(built.error()));
   if (auto finished = file.finish(); !finished)
     return tl::unexpected<Failure>(std::move(finished.error()));
-  return open_map_file(path, Access::write);
+  auto opened = open_map_file(path, Access::write);
+  if (!opened) static_cast<void>(remove_map_file(path));
+  return opened;
 }
 
 Result<void> fork_map_file(const std::filesystem::path& from, const std::filesystem::path& to,

@@ -119,6 +119,43 @@ TEST_F(MapFile, ShowsPeopleWhatIsDocumented) {
   EXPECT_EQ(shell.run("SELECT count(*) FROM chunks"), std::to_string(log.states().size()));
 }
 
+// Keyframes of events 65,536 and 65,900 are kept, that of 65,700 only while it is the newest.
+TEST_F(MapFile, KeepsOlderKeyframesFarApartAndNoRowsBeyondTheirNeeds) {
+  const auto journal = create();
+  auto events = log.more(1);
+  events.resize(65'900, events[0]);
+  for (std::size_t i = 0; i < events.size(); ++i) events[i].seq = i + 1;
+  ASSERT_TRUE(journal->append(0, events));
+  const auto put = [&](std::uint64_t keyframe, std::vector<std::uint64_t> seqs) {
+    std::vector<ChunkState> states;
+    for (const std::uint64_t seq : seqs) states.push_back({{0, 5, 5, 0}, seq, voxel::Chunk(8)});
+    ASSERT_TRUE(journal->put_chunks(states));
+    ASSERT_TRUE(journal->put_keyframe({.seq = keyframe}));
+    while (!journal->tidy(1).value()) {
+    }
+  };
+  put(100, {10});
+  put(65'536, {65'500});
+  put(65'700, {65'600, 65'650});
+  EXPECT_EQ(Shell(path).run("SELECT seq FROM keyframes"), "65536 65700");
+  EXPECT_EQ(Shell(path).run("SELECT seq FROM chunks"), "65500 65650");
+  put(65'900, {65'800});
+  EXPECT_EQ(Shell(path).run("SELECT seq FROM keyframes"), "65536 65900");
+  EXPECT_EQ(Shell(path).run("SELECT seq FROM chunks"), "65500 65800");
+  EXPECT_EQ(chunk_lines(*journal, 65'536).value(), std::vector<std::string>{"65500 0,5,5,0 blank"});
+  EXPECT_EQ(chunk_lines(*journal, 65'900).value(), std::vector<std::string>{"65800 0,5,5,0 blank"});
+  ASSERT_TRUE(journal->append(65'900, std::vector{[&] {
+                                auto event = events[0];
+                                event.seq = 65'901;
+                                return event;
+                              }()}));
+  ASSERT_TRUE(
+      journal->put_chunks(std::vector<ChunkState>{{{0, 5, 5, 0}, 65'901, voxel::Chunk(8)}}));
+  while (!journal->tidy(1).value()) {
+  }
+  EXPECT_EQ(Shell(path).run("SELECT seq FROM chunks"), "65500 65800") << "of no keyframe";
+}
+
 TEST_F(MapFile, LetsOthersLookWhileItIsWritten) {
   const auto journal = create();
   Shell shell(path);
