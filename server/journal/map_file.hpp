@@ -6,37 +6,41 @@
 /// XXH3-64, seed 0, over the fields named, in that order: integers as 8 bytes, little-endian; texts
 /// and bytes after their length as such an integer.
 ///
-/// meta(key, value)   texts. settings: JSON as protocol::write_settings gives it; epoch: 16 hex
-///     digits; created_ms: since 1970, decimal; sum: 16 hex digits, over key and value of the
-///     others in the order of their keys.
-/// events(seq, time_ms, author, id, command, hash)   seq 1, 2, 3 ... without gaps. command: the
-///     edit's fields as JSON, as protocol::write_edit gives them; a "kind" other than "edit" is for
-///     later versions. hash: the map's after the event.
-/// batches(first_seq, last_seq, sum)   what was committed together; batches follow each other
-/// without
-///     gaps and end with the last event. sum: over its events in order, of each one seq, time_ms,
-///     author, id, command, hash.
-/// keyframes(seq, map_hash, time_ms, chunks, digest, authors, sum)   map_hash: after event seq;
-///     time_ms: when it was made. chunks: how many chunks have a state up to seq; digest: the sums
-///     of the newest of each one's, XORed. authors: how many there were. sum: over the other
-///     columns. Kept are the newest one, and older ones from 65,536 events to the next.
-/// chunks(layer, place, seq, bytes, sum)   the state of a chunk since event seq or longer, up to
-/// the
-///     next row of the same layer and place, or the keyframe it was put for. place:
-///     chunk_place.hpp. bytes: voxel/chunk_bytes.hpp, none when there is nothing any more. sum:
-///     over the other columns. Rows after the newest keyframe are of one that was not finished;
-///     they count for nothing. chunks_by_seq is an index of them.
-/// authors(author, ids, sum)   ids: author_ids.hpp, up to the newest keyframe at least. sum: over
-/// the
-///     other columns.
+/// meta(key, value), both texts
+///     settings: JSON, as protocol::write_settings gives it; epoch: 16 hex digits; created_ms:
+///     since 1970, decimal; sum: 16 hex digits, over key and value of the others in the order of
+///     their keys.
+///
+/// events(seq, time_ms, author, id, command, hash)
+///     seq: 1, 2, 3 ... without gaps. command: the edit's fields as JSON, as protocol::write_edit
+///     gives them; a "kind" other than "edit" is for later versions. hash: the map's after it.
+///
+/// batches(first_seq, last_seq, sum)
+///     What was committed together; they follow each other without gaps and end with the last
+///     event. sum: over its events in order, of each one seq, time_ms, author, id, command, hash.
+///
+/// keyframes(seq, map_hash, time_ms, chunks, digest, authors, sum)
+///     map_hash: after event seq. time_ms: when it was made. chunks: how many chunks have a state
+///     up to seq; digest: the sums of the newest of each one's, XORed. authors: how many there
+///     were. sum: over the columns before it. Kept are the newest keyframe, and older ones at
+///     least 65,536 events apart.
+///
+/// chunks(layer, place, seq, bytes, sum)
+///     The state of a chunk since event seq or longer, up to the next row of the same layer and
+///     place, or the keyframe it was put for. place: chunk_place.hpp. bytes: voxel/chunk_bytes.hpp,
+///     none when there is nothing any more. sum: over the columns before it. Rows after the newest
+///     keyframe are of one that was not finished and count for nothing. chunks_by_seq indexes them.
+///
+/// authors(author, ids, sum)
+///     ids: author_ids.hpp, up to the newest keyframe at least. sum: over the columns before it.
 ///
 /// For example, who painted how much, and what the last edits were:
 ///     SELECT printf('%016x', author), count(*) FROM events GROUP BY author;
-///     SELECT seq, datetime(time_ms / 1000, 'unixepoch'), command->>'stencil', printf('%016x',
-///     hash)
-///       FROM events ORDER BY seq DESC LIMIT 5;
-/// Nothing but the log is needed: the last three tables can be emptied, and are made again. Other
-/// tables, indexes, views or triggers make it no map file.
+///     SELECT seq, datetime(time_ms / 1000, 'unixepoch'), command FROM events
+///       ORDER BY seq DESC LIMIT 5;
+///
+/// Nothing but the log is needed: keyframes, chunks and authors, emptied together, are made again.
+/// Other tables, indexes, views or triggers make it no map file.
 ///
 /// While a map is open for writing, SQLite's NAME.earthwork-wal and -shm lie beside it, and
 /// NAME.earthwork-tip (tip_file.hpp). After a crash the -wal is part of the map. A tip that knows
