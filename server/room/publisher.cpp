@@ -102,9 +102,7 @@ void Publisher::durable(std::uint64_t seq) {
   publish(std::exchange(beat_waits_, false) ? Beat::due : Beat::wait);
 }
 
-void Publisher::show() { show_news(); }
-
-void Publisher::show_news() {
+void Publisher::show() {
   if (round_ || resting_ || latest_ == seq_ || !shown_is_durable()) return;
   rest();
   go_on();
@@ -134,7 +132,7 @@ void Publisher::rest() {
   resting_ = true;
   later_(time, [this] {
     resting_ = false;
-    show_news();
+    show();
   });
 }
 
@@ -207,7 +205,7 @@ void Publisher::start_round(std::span<const voxel::ChunkKey> keys) {
     if (round_.get() != started) return;  // `refresh` has ended it
     end_round();
     if (latest_ != seq_)
-      show_news();
+      show();
     else
       go_on();
   });

@@ -116,7 +116,6 @@ class Publisher {
   std::size_t take_up_a_view();
   void take_up_views();
   void go_on();
-  void show_news();
   /// No mesh can be made now of what is shown: a round makes them, or the map has gone on and what
   /// is new waits.
   [[nodiscard]] bool held() const { return round_ || latest_ != seq_; }
