@@ -51,6 +51,16 @@ pid_t spawn(const std::string& name, const std::vector<std::string>& arguments,
   return pid;
 }
 
+std::vector<std::string> serve_arguments(const ServerProgram::Flags& flags) {
+  std::vector<std::string> out{"serve", "--listen", "127.0.0.1:" + std::to_string(flags.port)};
+  if (flags.data.empty())
+    out.emplace_back("--memory");
+  else
+    out.insert(out.end(), {"--data", flags.data});
+  out.insert(out.end(), flags.more.begin(), flags.more.end());
+  return out;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -73,7 +83,7 @@ Program::~Program() {
 }
 
 void Program::signal(int number) const {
-  if (!status_) kill(pid_, number);  // its number may be somebody else's by now
+  if (!status_) ::kill(pid_, number);  // its number may be somebody else's by now
 }
 
 std::string Program::out() const { return read_file((folder_ / "out").string()); }
@@ -109,8 +119,8 @@ Outcome bot_without(Stdout missing, const std::vector<std::string>& arguments) {
   return Program("/bin/sh", all).wait();
 }
 
-ServerProgram::ServerProgram()
-    : program_("earthwork-server", {"serve", "--memory", "--listen", "127.0.0.1:0"}) {
+ServerProgram::ServerProgram(const Flags& flags)
+    : program_("earthwork-server", serve_arguments(flags)) {
   const std::string announcement = "listening on ";
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
   while (std::chrono::steady_clock::now() < give_up && !program_.ended()) {
@@ -131,12 +141,19 @@ ServerProgram::ServerProgram()
 }
 
 ServerProgram::~ServerProgram() {
+  if (killed_) return;
   ask_to_end();
   const Outcome outcome = program_.wait();
   EXPECT_EQ(outcome.exit_code, 0) << "earthwork-server: " << outcome.err;
 }
 
 void ServerProgram::ask_to_end() const { program_.signal(SIGTERM); }
+
+void ServerProgram::kill() {
+  killed_ = true;
+  program_.signal(SIGKILL);
+  program_.wait();
+}
 
 Folder::Folder() : path_(new_folder()) {}
 

@@ -50,13 +50,19 @@ Outcome bot(const std::vector<std::string>& arguments);
 enum class Stdout { full, closed };
 Outcome bot_without(Stdout missing, const std::vector<std::string>& arguments);
 
-/// `earthwork-server serve --memory` on a free port, until it goes out of scope: then it is asked
-/// to end, and the test fails unless it does so with 0 (a sanitizer that found something makes it
-/// 1).
+/// `earthwork-server serve`, until it goes out of scope: then it is asked to end, and the test
+/// fails unless it does so with 0 (a sanitizer that found something makes it 1).
 class ServerProgram {
  public:
+  struct Flags {
+    std::string data{};               ///< The folder it keeps maps in; empty: `--memory`.
+    std::uint16_t port = 0;           ///< 0: a free one.
+    std::vector<std::string> more{};  ///< Put behind the others.
+  };
+
+  ServerProgram() : ServerProgram(Flags{}) {}
   /// Returns once it listens; throws when it does not.
-  ServerProgram();
+  explicit ServerProgram(const Flags& flags);
   ServerProgram(const ServerProgram&) = delete;
   ServerProgram& operator=(const ServerProgram&) = delete;
   ~ServerProgram();
@@ -64,12 +70,15 @@ class ServerProgram {
   std::string url() const { return address_.text(); }
   /// Asks it to end, as SIGTERM does.
   void ask_to_end() const;
+  /// Ends it at once, as a crash would; that it did not end by itself is no failure then.
+  void kill();
   /// Waits for its end.
   Outcome wait() { return program_.wait(); }
 
  private:
   Program program_;
   link::ServerAddress address_;
+  bool killed_ = false;
 };
 
 /// A folder that goes with it.
