@@ -138,7 +138,6 @@ int verify_map(const MapFlags& flags) {
   if (!stored) return refuse(stored.error());
   auto audit = journal::audit(*stored->journal);
   if (!audit) return refuse(audit.error());
-  for (protocol::Failure& finding : audit->findings) finding.detail = located(*stored, finding);
   if (!audit->sound()) {
     const int damaged = answer_audit(stored->name, *audit);
     tell_what_is_left(*stored, *audit);

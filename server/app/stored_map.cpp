@@ -48,22 +48,11 @@ std::int64_t now_ms() {
   return duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-std::string located(const StoredMap& stored, const Failure& damage) {
-  const std::string file = stored.path.string();
-  return damage.detail.find(file) == std::string::npos ? file + ": " + damage.detail
-                                                       : damage.detail;
-}
-
 Result<journal::Restored> salvage(const StoredMap& stored, std::optional<std::uint64_t> seq) {
   auto restored = journal::restore(*stored.journal, seq, journal::Trust::salvage);
-  if (!restored) {
-    if (restored.error().code == protocol::Code::damaged)
-      restored.error().detail = located(stored, restored.error());
-  } else if (!restored->passed_over.empty()) {
-    for (const Failure& failure : restored->passed_over)
-      warn("damaged: " + located(stored, failure));
-    warn("executed again from " + std::to_string(restored->keyframe_seq) + ", every hash agreeing");
-  }
+  if (!restored || restored->passed_over.empty()) return restored;
+  for (const Failure& failure : restored->passed_over) warn("damaged: " + failure.detail);
+  warn("executed again from " + std::to_string(restored->keyframe_seq) + ", every hash agreeing");
   return restored;
 }
 

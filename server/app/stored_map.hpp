@@ -35,9 +35,6 @@ struct StoredMap {
 /// Fails with bad_name.
 [[nodiscard]] protocol::Result<void> check_name(const std::string& name);
 
-/// What is damaged in a map, with the name of its file where that is not told yet.
-[[nodiscard]] std::string located(const StoredMap& stored, const protocol::Failure& damage);
-
 /// As of `seq` or the last event. What is damaged is passed over as long as the log is good, and
 /// people are told on stderr. Fails as journal::restore does.
 [[nodiscard]] protocol::Result<journal::Restored> salvage(const StoredMap& stored,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/journal/author_check.hpp"
+#include "server/journal/damage.hpp"
 #include "server/journal/event_pages.hpp"
 #include "server/journal/execution.hpp"
 #include "server/journal/findings.hpp"
@@ -54,11 +55,8 @@ class Walk {
 
  private:
   Result<void> step(const history::Event& event, Findings& findings) {
-    if (auto applied = executed_.apply(event); !applied) {
-      Failure failure = std::move(applied.error());
-      failure.detail.insert(0, "events: ");
-      return tl::unexpected<Failure>(std::move(failure));
-    }
+    if (auto applied = executed_.apply(event); !applied)
+      return tl::unexpected<Failure>(in_events_of(journal_, std::move(applied.error())));
     good_ = executed_.seq;
     hash_ = executed_.hash;
     if (authors_) authors_->executed(event, executed_.authors, findings);
@@ -86,7 +84,7 @@ class Walk {
 }  // namespace
 
 Result<Audit> audit(Journal& journal) {
-  Findings findings;
+  Findings findings(journal.name());
   auto keyframes = or_finding(journal.keyframes(), findings);
   if (!keyframes) return tl::unexpected<Failure>(std::move(keyframes.error()));
   auto authors = or_finding(journal.authors(), findings);

@@ -19,7 +19,7 @@ using protocol::Result;
 constexpr std::string_view kUnfinished = ".unfinished-";
 
 tl::unexpected<Failure> failed(int error, const std::filesystem::path& path) {
-  return tl::unexpected<Failure>(system_failure(error, path.string()));
+  return tl::unexpected<Failure>(system_failure(error, path.filename().string()));
 }
 
 Result<void> sync(const std::filesystem::path& path, int flags) {
@@ -69,7 +69,8 @@ Result<void> rename_new(const std::filesystem::path& from, const std::filesystem
   }
   if (result == 0) return sync_folder_of(to);
   if (errno == EEXIST)
-    return protocol::fail(Code::map_exists, to.string() + ": there is a file of that name");
+    return protocol::fail(Code::map_exists,
+                          to.filename().string() + ": there is a file of that name");
   return failed(errno, to);
 }
 

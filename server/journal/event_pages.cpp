@@ -1,16 +1,17 @@
 #include "server/journal/event_pages.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
+
+#include "server/journal/damage.hpp"
 
 namespace earthwork::journal {
 namespace {
 
 using protocol::Code;
 
-tl::unexpected<protocol::Failure> missing(std::uint64_t seq) {
-  return protocol::fail(Code::damaged, "events: seq " + std::to_string(seq) + " is missing");
+tl::unexpected<protocol::Failure> missing(const Journal& journal, std::uint64_t seq) {
+  return damage(journal.name(), "events", seq, "is missing");
 }
 
 }  // namespace
@@ -27,10 +28,10 @@ protocol::Result<void> read_events(Journal& journal, std::uint64_t after, std::u
       continue;
     }
     if (!page) return tl::unexpected<protocol::Failure>(std::move(page.error()));
-    if (page->empty()) return missing(after + 1);
+    if (page->empty()) return missing(journal, after + 1);
     for (const history::Event& event : *page) {
       if (after == up_to) break;
-      if (event.seq != after + 1) return missing(after + 1);
+      if (event.seq != after + 1) return missing(journal, after + 1);
       if (auto taken = take(event); !taken) return taken;
       after = event.seq;
     }

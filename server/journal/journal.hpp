@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "protocol/messages.hpp"
@@ -63,11 +64,14 @@ struct Keyframe {
 ///
 /// Failures: `disk_full`, `read_only`, `storage_failed` when something could not be written or read
 /// now, and may be later; `damaged` when what was written is not what is there: its detail names
-/// file, table and seq. After any failure what was there before is still there.
+/// file, table and seq. Details are for anybody: of a file they tell its name, and never where it
+/// is. After any failure what was there before is still there.
 class Journal {
  public:
   virtual ~Journal() = default;
 
+  /// What its failures call it: its file's name; empty where there is no file.
+  [[nodiscard]] virtual std::string_view name() const { return {}; }
   [[nodiscard]] virtual const Identity& identity() const = 0;
   /// Of the last event; 0 before the first one.
   [[nodiscard]] virtual std::uint64_t last_seq() const = 0;

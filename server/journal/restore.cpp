@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "protocol/chunk_record.hpp"
+#include "server/journal/damage.hpp"
 #include "server/journal/event_pages.hpp"
 #include "server/journal/execution.hpp"
 
@@ -15,11 +16,6 @@ namespace {
 using protocol::Code;
 using protocol::Failure;
 using protocol::Result;
-
-tl::unexpected<Failure> damaged(const char* table, std::uint64_t seq, const std::string& sentence) {
-  return protocol::fail(Code::damaged,
-                        std::string(table) + ": seq " + std::to_string(seq) + ": " + sentence);
-}
 
 /// A chunk of the map's frame, from no later than its keyframe.
 bool fits(const ChunkState& state, const voxel::Grid& grid, std::uint64_t keyframe_seq) {
@@ -37,8 +33,8 @@ Result<AuthorBook> load_authors(Journal& journal, std::uint64_t up_to) {
     };
     const auto wrong = std::ranges::adjacent_find(state.applied, not_above);
     if (wrong != state.applied.end())
-      return damaged("authors", wrong->seq,
-                     "what follows it of author " + protocol::hex(state.author) + " is not above");
+      return damage(journal.name(), "authors", wrong->seq,
+                    "what follows it of author " + protocol::hex(state.author) + " is not above");
   }
   return AuthorBook(std::move(*known), up_to);
 }
@@ -51,7 +47,7 @@ Result<Execution> load_keyframe(Journal& journal, const Keyframe& keyframe) {
 
   auto told = journal.chunks(keyframe.seq, [&](ChunkState state) -> Result<void> {
     if (!fits(state, loaded.map.grid(), keyframe.seq))
-      return damaged("chunks", state.seq, "a chunk that the map cannot have");
+      return damage(journal.name(), "chunks", state.seq, "a chunk that the map cannot have");
     loaded.ages.set(state.key, state.seq);
     if (!state.chunk.blank()) loaded.map.put(state.key, std::move(state.chunk));
     return {};
@@ -60,19 +56,17 @@ Result<Execution> load_keyframe(Journal& journal, const Keyframe& keyframe) {
   loaded.seq = keyframe.seq;
   loaded.hash = loaded.map.hash();
   if (loaded.hash != keyframe.map_hash)
-    return damaged("keyframes", keyframe.seq,
-                   "the stored hash is " + protocol::hex(keyframe.map_hash) + ", its chunks give " +
-                       protocol::hex(loaded.hash));
+    return damage(journal.name(), "keyframes", keyframe.seq,
+                  "the stored hash is " + protocol::hex(keyframe.map_hash) + ", its chunks give " +
+                      protocol::hex(loaded.hash));
   return loaded;
 }
 
 Result<Restored> go_on(Journal& journal, Execution&& start, std::uint64_t target) {
   const std::uint64_t keyframe_seq = start.seq;
-  auto executed = read_events(journal, start.seq, target, [&start](const history::Event& event) {
-    return start.apply(event).map_error([](Failure failure) {
-      failure.detail.insert(0, "events: ");
-      return failure;
-    });
+  auto executed = read_events(journal, start.seq, target, [&](const history::Event& event) {
+    return start.apply(event).map_error(
+        [&journal](Failure failure) { return in_events_of(journal, std::move(failure)); });
   });
   if (!executed) return tl::unexpected<Failure>(std::move(executed.error()));
   return Restored{.map = std::move(start.map),
@@ -112,8 +106,8 @@ Result<Restored> restore(Journal& journal, std::optional<std::uint64_t> seq, Tru
     return tl::unexpected<Failure>(std::move(keyframes.error()));
   auto starts = keyframes ? std::move(*keyframes) : std::vector<Keyframe>{};
   if (!starts.empty() && starts.back().seq > last) {
-    auto torn = damaged("keyframes", starts.back().seq,
-                        "the log has only " + std::to_string(last) + " events");
+    auto torn = damage(journal.name(), "keyframes", starts.back().seq,
+                       "the log has only " + std::to_string(last) + " events");
     if (!may_pass_over(torn.value())) return torn;
   }
   std::erase_if(starts, [target](const Keyframe& keyframe) { return keyframe.seq > target; });

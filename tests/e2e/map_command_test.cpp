@@ -348,7 +348,7 @@ TEST_F(MapCommand, NamesAnEventThatDidSomethingElse) {
   const Outcome verified = map({"verify", "ten"});
   EXPECT_EQ(verified.exit_code, 1);
   EXPECT_EQ(report(verified)["findings"],
-            json{file("ten") + ": events: seq 5: the stored hash is " + hex(events[4].hash) +
+            json{"ten.earthwork: events: seq 5: the stored hash is " + hex(events[4].hash) +
                  ", executed it is " + hex(ten_events()[4].hash)});
   EXPECT_EQ(done({"hash", "ten", "--seq", "4"})["hash"], hex(events[3].hash));
   const Outcome refused = map({"hash", "ten"});
