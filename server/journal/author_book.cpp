@@ -16,9 +16,11 @@ AuthorBook::AuthorBook(std::vector<AuthorState> known, std::uint64_t up_to) {
 }
 
 bool AuthorBook::add(std::uint64_t author, const AuthorState::Applied& applied) {
-  auto& page = pages_[author];
-  if (!page.empty() && (applied.id <= page.back().id || applied.seq <= page.back().seq))
+  const auto known = of(author);
+  const AuthorState::Applied last = known.empty() ? AuthorState::Applied{} : known.back();
+  if (applied.id <= last.id || applied.seq <= last.seq || applied.id > protocol::kMaxInteger)
     return false;
+  auto& page = pages_[author];
   if (page.size() >= 2 * kMaxRememberedIds)
     page.erase(page.begin(), page.end() - (kMaxRememberedIds - 1));
   page.push_back(applied);

@@ -18,7 +18,7 @@ class AuthorBook {
   AuthorBook(std::vector<AuthorState> known, std::uint64_t up_to);
 
   /// Adds the author's next one. False, and nothing is added, when its id or its seq is not above
-  /// the last one's.
+  /// the last one's, or 0, or when its id is above protocol::kMaxInteger.
   [[nodiscard]] bool add(std::uint64_t author, const AuthorState::Applied& applied);
   /// Empty for an author who is not known. Valid until the next `add`.
   [[nodiscard]] std::span<const AuthorState::Applied> of(std::uint64_t author) const;

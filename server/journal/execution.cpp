@@ -1,15 +1,34 @@
 #include "server/journal/execution.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "protocol/chunk_record.hpp"
+#include "protocol/limits.hpp"
 #include "server/history/fold.hpp"
+#include "server/journal/damage.hpp"
 
 namespace earthwork::journal {
 namespace {
 
 tl::unexpected<protocol::Failure> damaged(std::uint64_t seq, const std::string& sentence) {
-  return protocol::fail(protocol::Code::damaged, "seq " + std::to_string(seq) + ": " + sentence);
+  return damage({}, {}, seq, sentence);
+}
+
+// Limits of edits may become narrower, and what was accepted stays. But a file of anybody must not
+// send a stencil beyond all numbers, or fill the world with one: nothing was ever accepted that
+// goes beyond these.
+constexpr double kWidestRadiusVoxels = 8192, kFurthestVoxels = 1 << 24;
+static_assert(protocol::kMaxRadiusVoxels <= kWidestRadiusVoxels);
+static_assert(protocol::kMaxCoordinateVoxels <= kFurthestVoxels);
+
+bool ever_acceptable(const protocol::Edit& edit, double voxel_size) {
+  if (!(edit.radius / voxel_size <= kWidestRadiusVoxels)) return false;
+  for (const protocol::MapPoint& point : edit.path)
+    if (!(std::abs(point.x / voxel_size) <= kFurthestVoxels) ||
+        !(std::abs(point.y / voxel_size) <= kFurthestVoxels))
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -21,6 +40,8 @@ protocol::Result<void> Execution::apply(const history::Event& event) {
   if (event.edit.layer >= static_cast<std::uint32_t>(map.grid().layers))
     return damaged(event.seq, "layer " + std::to_string(event.edit.layer) + " of a map with " +
                                   std::to_string(map.grid().layers));
+  if (!ever_acceptable(event.edit, map.grid().voxel_size))
+    return damaged(event.seq, "an edit beyond all limits");
   if (!authors.add(event.author, {event.id, event.seq}))
     return damaged(event.seq, "id " + std::to_string(event.id) +
                                   " is not above the last of author " +

@@ -18,8 +18,9 @@ struct Execution {
   explicit Execution(const protocol::MapSettings& settings);
 
   /// Applies the event. Fails with `damaged` when its seq is not the next one, when the map has no
-  /// such layer, when its id is not above its author's last, and when the map's hash after it is
-  /// not the event's; the detail begins with "seq N: ". After a failure the map is not to be used.
+  /// such layer, when its edit or its id is none that can have been accepted, and when the map's
+  /// hash after it is not the event's; the detail begins with "seq N: ". After a failure the map is
+  /// not to be used.
   [[nodiscard]] protocol::Result<void> apply(const history::Event& event);
 
   voxel::Map map;

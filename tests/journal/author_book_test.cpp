@@ -24,6 +24,10 @@ TEST(AuthorBook, TakesOnlyWhatIsAboveTheLast) {
   EXPECT_FALSE(book.add(9, {3, 11}));
   EXPECT_FALSE(book.add(9, {5, 10}));
   EXPECT_TRUE(book.add(9, {5, 11}));
+  EXPECT_FALSE(book.add(8, {0, 1}));
+  EXPECT_FALSE(book.add(8, {protocol::kMaxInteger + 1, 1}));
+  EXPECT_TRUE(book.of(8).empty());
+  EXPECT_EQ(book.states().size(), 1u);
   EXPECT_TRUE(book.add(8, {1, 1}));
 }
 

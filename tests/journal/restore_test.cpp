@@ -127,8 +127,27 @@ TEST(Restore, RefusesWhatNoRoomAccepts) {
             "events: seq 2: layer 1 of a map with 1");
   EXPECT_EQ(refusal([](history::Event& event) { event.id = event.seq == 4 ? 101 : event.id; }),
             "events: seq 4: id 101 is not above the last of author 00000000000000a1");
+  EXPECT_EQ(refusal([](history::Event& event) { event.id = event.seq == 1 ? 0 : event.id; }),
+            "events: seq 1: id 0 is not above the last of author 00000000000000a1");
   EXPECT_EQ(refusal([](history::Event& event) { event.seq += event.seq == 3; }),
-            "events: seq 3 is missing");
+            "events: seq 3: is missing");
+}
+
+// Limits may change and what was accepted stays; but what a file of anybody asks for is bounded.
+TEST(Restore, RefusesEditsBeyondAllLimits) {
+  const auto refusal = [](double radius, double x, double y) {
+    TamperedJournal journal(journal_of(ten_events()));
+    journal.change_event = [=](history::Event& event) {
+      if (event.seq == 2) event.edit = disc(x, y, radius);
+    };
+    return restore(journal, {}, Trust::strict).error().detail;
+  };
+  const std::string beyond = "events: seq 2: an edit beyond all limits";
+  EXPECT_EQ(refusal(1e300, 0, 0), beyond);
+  EXPECT_EQ(refusal(8193, 0, 0), beyond);
+  EXPECT_EQ(refusal(1, -1e300, 0), beyond);
+  EXPECT_EQ(refusal(1, 0, 16777217), beyond);
+  EXPECT_NE(refusal(513, 1000001, 0), beyond);
 }
 
 TEST(Restore, ReadsUpToTheEventBeforeADamagedOne) {
