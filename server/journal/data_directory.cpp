@@ -62,9 +62,15 @@ Result<void> make_folder(const fs::path& folder, DataDirectory::Missing missing)
   if (fs::is_directory(folder, error)) return {};
   if (missing == DataDirectory::Missing::refuse)
     return fail(Code::unknown_map, folder.string() + ": there is no such folder");
+  std::vector<fs::path> made;  // the innermost first
+  const fs::path whole = fs::absolute(folder, error).lexically_normal();
+  for (fs::path path = whole; path.has_relative_path(); path = path.parent_path())
+    if (path.has_filename() && !fs::exists(path, error)) made.push_back(path);
   fs::create_directories(folder, error);
   if (error) return tl::unexpected<Failure>(system_failure(error.value(), folder.string()));
-  return sync_folder_of(fs::absolute(folder, error));
+  for (const fs::path& path : made)
+    if (auto synced = sync_folder_of(path); !synced) return synced;
+  return {};
 }
 
 /// The names of all ordinary files in the folder.
@@ -74,7 +80,7 @@ Result<std::vector<std::string>> file_names(const fs::path& folder) {
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
     if (std::error_code none; it->symlink_status(none).type() == fs::file_type::regular)
       names.push_back(it->path().filename().string());
-  if (error) return tl::unexpected<Failure>(system_failure(error.value(), folder.string()));
+  if (error) return tl::unexpected<Failure>(system_failure(error.value(), "the data directory"));
   return names;
 }
 

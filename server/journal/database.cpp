@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "server/journal/damage.hpp"
+
 namespace earthwork::journal {
 namespace {
 
@@ -41,7 +43,8 @@ Code code_of(int result, int system_error) {
     case SQLITE_NOTADB:
     case SQLITE_FORMAT:
     case SQLITE_TOOBIG:
-    case SQLITE_ERROR:  // what we ask is right: the schema is not what it was
+    case SQLITE_ERROR:       // what we ask is right: the schema is not what it was,
+    case SQLITE_CONSTRAINT:  // or a row is there that should not
       return Code::damaged;
     case SQLITE_IOERR:
       if (result == SQLITE_IOERR_CORRUPTFS || result == SQLITE_IOERR_SHORT_READ)
@@ -124,9 +127,10 @@ Result<void> Database::configure(Mode mode) {
     return execute("PRAGMA locking_mode=EXCLUSIVE; PRAGMA cell_size_check=ON");
   }
   if (mode == Mode::build) return execute("PRAGMA synchronous=OFF");
+  // After a reader that stayed for long, the write-ahead file shrinks again.
   return execute(
-      "PRAGMA cell_size_check=ON; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;"
-      "PRAGMA mmap_size=0");
+      "PRAGMA cell_size_check=ON; PRAGMA synchronous=FULL;"
+      "PRAGMA mmap_size=0; PRAGMA journal_size_limit=8388608");
 }
 
 Result<void> Database::execute(const char* sql) {
@@ -167,6 +171,12 @@ Result<void> Database::transact(Durable durable, const std::function<Result<void
   return done;
 }
 
+bool Database::moved() const {
+  int moved = 0;
+  return sqlite3_file_control(handle(), nullptr, SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK &&
+         moved != 0;
+}
+
 Failure Database::failure(int code, std::string_view table) const {
   std::string detail = name_ + ": ";
   if (!table.empty()) (detail += table) += ": ";
@@ -177,10 +187,7 @@ Failure Database::failure(int code, std::string_view table) const {
 
 tl::unexpected<Failure> Database::damaged(std::string_view table, std::uint64_t seq,
                                           std::string_view sentence) const {
-  std::string detail = name_ + ": ";
-  if (!table.empty()) (detail += table) += ": ";
-  if (seq != 0) detail += "seq " + std::to_string(seq) + ": ";
-  return protocol::fail(Code::damaged, detail += sentence);
+  return damage(name_, table, seq, sentence);
 }
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }

@@ -22,7 +22,7 @@ namespace earthwork::journal {
 class Database {
  public:
   enum class Mode {
-    write,  ///< Write-ahead log. Waits 2 s for another program that writes.
+    write,  ///< Waits 2 s for another program that writes.
     read,   ///< Neither changes nor creates anything, recovery of the log happens in memory. Nobody
             ///< writes meanwhile.
     build,  ///< A file that nobody else knows yet, which is synced as a whole once it is built.
@@ -49,9 +49,14 @@ class Database {
       Durable durable, const std::function<protocol::Result<void>()>& work);
   [[nodiscard]] bool doubtful() const { return doubtful_; }
 
+  /// Writes go to a write-ahead file from now on, and the file says so.
+  [[nodiscard]] protocol::Result<void> use_log() { return execute("PRAGMA journal_mode=WAL"); }
+  /// Whether the file is not at its path any more.
+  [[nodiscard]] bool moved() const;
+
   /// The failure behind an SQLite result code, just given.
   [[nodiscard]] protocol::Failure failure(int code, std::string_view table = {}) const;
-  /// "NAME: TABLE: seq N: SENTENCE"; without what is empty, or 0.
+  /// As journal::damage of this file.
   [[nodiscard]] tl::unexpected<protocol::Failure> damaged(std::string_view table, std::uint64_t seq,
                                                           std::string_view sentence) const;
 

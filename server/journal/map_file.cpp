@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "server/journal/damage.hpp"
 #include "server/journal/database.hpp"
 #include "server/journal/durable_files.hpp"
 #include "server/journal/map_keyframes.hpp"
@@ -32,14 +33,14 @@ struct LogEnd {
 // A reader is told of what is missing when it comes to it, so it takes promises for granted.
 Result<LogEnd> find_end(Database& database, const std::optional<Tip>& tip) {
   const auto event = last_event_seq(database);
-  const auto batch = last_batch_seq(database);
-  LogEnd end{.seq = event.value_or(0)};
-  end.promised = std::max({end.seq, batch.value_or(0), tip ? tip->seq : 0});
-  const auto hash = event_hash(database, end.seq);
-  end.hash = hash && *hash ? **hash : 0;
   if (!event) return tl::unexpected<Failure>(event.error());
+  const auto batch = last_batch_seq(database);
   if (!batch) return tl::unexpected<Failure>(batch.error());
-  return end;
+  const auto hash = event_hash(database, *event);
+  if (!hash) return tl::unexpected<Failure>(hash.error());
+  return LogEnd{.seq = *event,
+                .promised = std::max({*event, *batch, tip ? tip->seq : 0}),
+                .hash = hash->value_or(0)};
 }
 
 /// That the log ends where it should, its last batch being sound.
@@ -69,12 +70,14 @@ Result<void> check_end(Database& database, const LogEnd& end, const std::optiona
 
 class MapFile final : public Journal {
  public:
-  MapFile(std::filesystem::path path, Access access) : path_(std::move(path)), access_(access) {}
+  MapFile(std::filesystem::path path, Access access)
+      : path_(std::move(path)), name_(path_.filename().string()), access_(access) {}
   ~MapFile() override { close(); }
 
   /// Whether it can be used at all.
   Result<void> open();
 
+  std::string_view name() const override { return name_; }
   const Identity& identity() const override { return identity_; }
   std::uint64_t last_seq() const override { return end_.promised; }
 
@@ -100,6 +103,7 @@ class MapFile final : public Journal {
   void close();
 
   std::filesystem::path path_;
+  std::string name_;
   Access access_;
   Identity identity_;
   bool known_ = false;  // identity_ has been read
@@ -113,20 +117,23 @@ class MapFile final : public Journal {
 Result<void> MapFile::connect(Database::Mode mode) {
   database_.reset();
   writing_ = false;
-  auto database = Database::open(path_, path_.string(), mode);
+  auto database = Database::open(path_, name_, mode);
   if (!database) return tl::unexpected<Failure>(std::move(database.error()));
   if (auto checked = check_map_schema(*database); !checked) return checked;
   auto identity = read_identity(*database);
   if (!identity) return tl::unexpected<Failure>(std::move(identity.error()));
+  if (mode == Database::Mode::write)
+    if (auto log = database->use_log(); !log) return log;
   if (known_ && *identity != identity_)
     return database->damaged("meta", 0, "the file was replaced by another map's");
   const auto tip = read_tip(tip_path(path_));
   if (!tip) return tl::unexpected<Failure>(tip.error());
   auto end = find_end(*database, *tip);
-  if (access_ == Access::write) {
-    if (!end) return tl::unexpected<Failure>(std::move(end.error()));
+  const bool may_be_damaged = access_ == Access::read;
+  if (!end && !(may_be_damaged && end.error().code == Code::damaged))
+    return tl::unexpected<Failure>(std::move(end.error()));
+  if (!may_be_damaged)
     if (auto checked = check_end(*database, *end, *tip); !checked) return checked;
-  }
   identity_ = std::move(*identity);
   known_ = true;
   end_ = end.value_or(LogEnd{.promised = *tip ? (*tip)->seq : 0});
@@ -146,8 +153,7 @@ Result<void> MapFile::open() {
 }
 
 Result<void> MapFile::to_write() {
-  if (access_ == Access::read)
-    return fail(Code::read_only, path_.string() + ": opened for reading only");
+  if (access_ == Access::read) return fail(Code::read_only, name_ + ": opened for reading only");
   if (writing_) return {};
   auto connected = connect(Database::Mode::write);
   if (!connected && !database_)
@@ -185,7 +191,7 @@ void MapFile::witness() {
 
 // The tip stays when the write-ahead file does: it may be needed then.
 void MapFile::close() {
-  const bool settled = database_ && writing_;
+  const bool settled = database_ && writing_ && !database_->moved();
   database_.reset();
   tip_.reset();
   std::error_code none;
@@ -195,10 +201,11 @@ void MapFile::close() {
 
 Result<void> MapFile::append(std::uint64_t expected_seq, std::span<const Event> events) {
   if (auto ready = to_write(); !ready) return ready;
+  if (database_->moved())
+    return damage(name_, {}, 0, "the file was taken away, or another put in its place");
   if (end_.seq != expected_seq)
-    return fail(Code::bad_state, path_.string() + ": the last event is " +
-                                     std::to_string(end_.seq) + ", not " +
-                                     std::to_string(expected_seq));
+    return fail(Code::bad_state, name_ + ": the last event is " + std::to_string(end_.seq) +
+                                     ", not " + std::to_string(expected_seq));
   if (!tip_) {
     auto tip = TipFile::open(tip_path(path_), {.seq = end_.seq, .hash = end_.hash});
     if (!tip) return tl::unexpected<Failure>(std::move(tip.error()));
@@ -280,13 +287,16 @@ Result<std::vector<AuthorState>> MapFile::authors() {
 }  // namespace
 
 Result<std::unique_ptr<Journal>> open_map_file(const std::filesystem::path& path, Access access) {
+  const std::string name = path.filename().string();
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
   if (status.type() == std::filesystem::file_type::not_found)
-    return fail(Code::unknown_map, path.string() + ": there is no such file");
+    return fail(Code::unknown_map, name + ": there is no such file");
   if (status.type() != std::filesystem::file_type::regular)
-    return fail(error ? Code::storage_failed : Code::damaged,
-                path.string() + ": not an ordinary file");
+    return fail(error ? Code::storage_failed : Code::damaged, name + ": not an ordinary file");
+  // SQLite takes it for a database that nothing is in yet.
+  if (std::filesystem::file_size(path, error) == 0)
+    return fail(Code::damaged, name + ": the file is empty");
   auto file = std::make_unique<MapFile>(path, access);
   if (auto opened = file->open(); !opened)
     return tl::unexpected<Failure>(std::move(opened.error()));

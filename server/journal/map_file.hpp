@@ -67,13 +67,12 @@ inline constexpr const char* kMapFileSuffix = ".earthwork";
 
 enum class Access {
   /// What has lost its end is not opened. Without room, or where nothing may be written, it is
-  /// opened
-  /// all the same; writing then fails until it can be done.
+  /// opened all the same; writing then fails until it can be done. Appending fails with `damaged`
+  /// once the file was taken away, or another one put in its place.
   write,
   /// Changes nothing, not even what a crash has left beside the file. A log that has lost its end
-  /// is
-  /// opened: last_seq() is the last that there was, as far as anything tells, and reading what is
-  /// missing fails with `damaged`.
+  /// is opened: last_seq() is the last that there was, as far as anything tells, and reading what
+  /// is missing fails with `damaged`.
   read,
 };
 /// Fails with unknown_map where there is no file, with bad_version for another format or a later

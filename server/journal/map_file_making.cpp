@@ -1,10 +1,8 @@
 // Map files come and go as a whole: they are built, or taken apart, under another name.
-#include <algorithm>
-#include <map>
 #include <string>
 #include <utility>
 
-#include "protocol/limits.hpp"
+#include "server/journal/author_book.hpp"
 #include "server/journal/database.hpp"
 #include "server/journal/durable_files.hpp"
 #include "server/journal/map_file.hpp"
@@ -39,6 +37,8 @@ class Unfinished {
     std::error_code none;
     if (!std::filesystem::exists(std::filesystem::symlink_status(path_, none)))
       if (auto removed = remove_companions(path_); !removed) return removed;
+    // They are gone for good before there is a map that they lie beside.
+    if (auto synced = sync_folder_of(path_); !synced) return synced;
     return rename_new(built_, path_);
   }
 
@@ -53,39 +53,29 @@ class Unfinished {
 
 /// The failure names the file that was asked for.
 Result<Database> open_built(const Unfinished& file, const std::filesystem::path& path) {
-  return Database::open(file.built(), path.string(), Database::Mode::build);
+  return Database::open(file.built(), path.filename().string(), Database::Mode::build);
 }
 
 Result<void> build_empty(Database database, const Identity& identity) {
   if (auto made = make_map_schema(database, identity); !made) return made;
-  return database.execute("PRAGMA journal_mode=WAL");
+  return database.use_log();
 }
 
 /// What is remembered of the authors after the last event, made from the log.
 Result<void> rebuild_authors(Database& database) {
   Statement rows(database, "events", "SELECT seq, author, id FROM events ORDER BY seq");
-  std::map<std::uint64_t, AuthorState> authors;
+  AuthorBook book;
   for (rows.begin();;) {
     const auto more = rows.next();
     if (!more) return tl::unexpected<Failure>(more.error());
     if (!*more) break;
     if (!rows.row_is("iii")) return database.damaged("events", 0, "a row is none of ours");
-    AuthorState& author = authors[rows.number(1)];
-    author.author = rows.number(1);
-    if (author.applied.size() == 2 * protocol::kMaxRememberedIds)
-      author.applied.erase(author.applied.begin(),
-                           author.applied.end() - protocol::kMaxRememberedIds);
-    author.applied.push_back({.id = rows.integer(2), .seq = rows.number(0)});
-  }
-  std::vector<AuthorState> states;
-  for (auto& [name, author] : authors) {
-    const std::size_t kept = std::min(author.applied.size(), protocol::kMaxRememberedIds);
-    author.applied.erase(author.applied.begin(),
-                         author.applied.end() - static_cast<std::ptrdiff_t>(kept));
-    states.push_back(std::move(author));
+    const std::uint64_t seq = rows.number(0);
+    if (!book.add(rows.number(1), {.id = rows.integer(2), .seq = seq}))
+      return database.damaged("events", seq, "its id is not above the last of its author");
   }
   if (auto gone = database.execute("DELETE FROM authors"); !gone) return gone;
-  return put_author_rows(database, states);
+  return put_author_rows(database, book.states());
 }
 
 Result<void> cut(Database& database, std::uint64_t seq) {
@@ -101,24 +91,45 @@ Result<void> cut(Database& database, std::uint64_t seq) {
   return rebuild_authors(database);
 }
 
-Result<void> change_copy(Database database, std::uint64_t epoch, std::int64_t created_ms,
-                         std::optional<std::uint64_t> seq) {
-  auto done = database.transact(Database::Durable::now, [&]() -> Result<void> {
-    auto identity = read_identity(database);
-    if (!identity) return tl::unexpected<Failure>(std::move(identity.error()));
-    identity->epoch = epoch;
-    identity->created_ms = created_ms;
-    if (auto written = write_identity(database, *identity); !written) return written;
-    return seq ? cut(database, *seq) : Result<void>();
-  });
-  if (!done) return done;
-  return database.execute("PRAGMA journal_mode=WAL");
+/// Makes a copy a map of its own.
+Result<void> change_copy(const Unfinished& file, const std::filesystem::path& path,
+                         std::uint64_t epoch, std::int64_t created_ms) {
+  auto database = open_built(file, path);
+  if (!database) return tl::unexpected<Failure>(std::move(database.error()));
+  auto identity = read_identity(*database);
+  if (!identity) return tl::unexpected<Failure>(std::move(identity.error()));
+  identity->epoch = epoch;
+  identity->created_ms = created_ms;
+  if (auto written = database->transact(Database::Durable::now,
+                                        [&] { return write_identity(*database, *identity); });
+      !written)
+    return written;
+  return database->use_log();
 }
 
-Result<void> copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
-  auto source = Database::open(from, from.string(), Database::Mode::read);
+Result<void> copy_whole(const std::filesystem::path& from, const std::string& name,
+                        const std::filesystem::path& to) {
+  auto source = Database::open(from, name, Database::Mode::read);
   if (!source) return tl::unexpected<Failure>(std::move(source.error()));
-  return Statement(*source, {}, "VACUUM INTO ?").run(std::string_view(to.native()));
+  std::error_code error;
+  const auto target = std::filesystem::absolute(to, error);
+  return Statement(*source, {}, "VACUUM INTO ?").run(std::string_view(target.native()));
+}
+
+// What is cut off leaves its room to nobody, so what is left is copied once more.
+Result<void> copy_up_to(const std::filesystem::path& from, const std::filesystem::path& to,
+                        std::uint64_t seq, const Unfinished& file) {
+  const Unfinished longer(to);
+  if (auto copied = copy_whole(from, from.filename().string(), longer.built()); !copied)
+    return copied;
+  {
+    auto database = open_built(longer, to);
+    if (!database) return tl::unexpected<Failure>(std::move(database.error()));
+    if (auto done = database->transact(Database::Durable::now, [&] { return cut(*database, seq); });
+        !done)
+      return done;
+  }
+  return copy_whole(longer.built(), to.filename().string(), file.built());
 }
 
 }  // namespace
@@ -151,20 +162,18 @@ Result<void> fork_map_file(const std::filesystem::path& from, const std::filesys
     if (const auto found = (*source)->events(end, 1); !found)
       return tl::unexpected<Failure>(found.error());
   Unfinished file(to);
-  std::error_code error;
-  const auto folder = std::filesystem::absolute(file.built(), error);
-  if (auto copied = copy_whole(from, folder); !copied) return copied;
-  auto database = open_built(file, to);
-  if (!database) return tl::unexpected<Failure>(std::move(database.error()));
-  if (auto changed = change_copy(std::move(*database), epoch, created_ms, seq); !changed)
-    return changed;
+  if (auto copied = seq ? copy_up_to(from, to, *seq, file)
+                        : copy_whole(from, from.filename().string(), file.built());
+      !copied)
+    return copied;
+  if (auto changed = change_copy(file, to, epoch, created_ms); !changed) return changed;
   return file.finish();
 }
 
 Result<void> remove_map_file(const std::filesystem::path& path) {
   std::error_code none;
   if (!std::filesystem::exists(std::filesystem::symlink_status(path, none)))
-    return fail(Code::unknown_map, path.string() + ": there is no such file");
+    return fail(Code::unknown_map, path.filename().string() + ": there is no such file");
   const auto gone = unfinished_path(path);
   if (auto renamed = rename_new(path, gone); !renamed) return renamed;
   if (auto removed = remove_companions(path); !removed) return removed;

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "server/journal/audit.hpp"
 #include "server/journal/map_file.hpp"
+#include "server/journal/restore.hpp"
 #include "tests/journal/sample_log.hpp"
 
 namespace earthwork::journal {
@@ -238,8 +240,9 @@ TEST(MapFileDamage, DamageBehindSoundBatchesIsLeftToWhoeverReadsIt) {
     const auto damaged = journal->events(from, 1 << 20);
     ASSERT_FALSE(damaged);
     EXPECT_EQ(damaged.error().code, Code::damaged);
-    EXPECT_EQ(damaged.error().detail,
-              path.string() + ": batches: seq 13: the sum of events up to 14 is another");
+    EXPECT_EQ(
+        damaged.error().detail,
+        path.filename().string() + ": batches: seq 13: the sum of events up to 14 is another");
   }
 }
 
@@ -282,9 +285,57 @@ TEST(MapFileDamage, AChangedRowIsNamed) {
     const auto failure = journal ? contents_of(**journal).failure : journal.error();
     ASSERT_TRUE(failure) << c.sql;
     EXPECT_EQ(failure->code, Code::damaged) << failure->detail;
-    EXPECT_NE(failure->detail.find(path.string() + ": "), std::string::npos) << failure->detail;
+    EXPECT_EQ(failure->detail.find("map.earthwork: "), 0u) << failure->detail;
     EXPECT_NE(failure->detail.find(c.where), std::string::npos) << c.sql << ": " << failure->detail;
   }
+}
+
+TEST(MapFileDamage, WhatExecutionFindsIsNamedWithTheFile) {
+  TemporaryFolder folder;
+  const auto path = folder / "map.earthwork";
+  const auto journal = create_map_file(path, sample_identity()).value();
+  auto events = SampleLog().more(6);
+  events[3].hash ^= 1;
+  ASSERT_TRUE(journal->append(0, events));
+  const std::string where = "map.earthwork: events: seq 4: the stored hash is ";
+  EXPECT_EQ(restore(*journal, {}, Trust::strict).error().detail.find(where), 0u);
+  EXPECT_EQ(audit(*journal).value().findings.at(0).detail.find(where), 0u);
+
+  ASSERT_TRUE(journal->put_keyframe({.seq = 2, .map_hash = 77}));
+  EXPECT_EQ(
+      restore(*journal, 3, Trust::strict).error().detail.find("map.earthwork: keyframes: seq 2"),
+      0u);
+  EXPECT_EQ(audit(*journal).value().findings.at(0).detail.find("map.earthwork: keyframes: seq 2"),
+            0u);
+}
+
+// A server would go on trying for ever where it is told that the disk fails.
+TEST(MapFileDamage, ARowWhereTheNextOneBelongsIsDamage) {
+  TemporaryFolder folder;
+  const auto path = folder / "map.earthwork";
+  SampleLog log;
+  log.write(*create_map_file(path, sample_identity()).value(), {3, 9});
+  change(path, "INSERT INTO batches VALUES(13, 12, 0)");
+  const auto journal = open_map_file(path, Access::read).value();
+  const auto written = open_map_file(path, Access::write);
+  const auto refused = written ? (*written)->append(12, log.more(1))
+                               : tl::unexpected<protocol::Failure>(written.error());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::damaged) << refused.error().detail;
+}
+
+TEST(MapFileDamage, AForkIsNotMadeOfIdsThatDoNotIncrease) {
+  TemporaryFolder folder;
+  const auto path = folder / "map.earthwork";
+  SampleLog log;
+  log.write(*create_map_file(path, sample_identity()).value(), {3, 9, 2});
+  change(path, "UPDATE events SET id = 1 WHERE seq = 5");
+  const auto refused = fork_map_file(path, folder / "fork.earthwork", 1, 2, 13);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(names_damage(refused.error()) ||
+              refused.error().detail.find("fork.earthwork: events: seq 5") == 0)
+      << refused.error().detail;
+  EXPECT_FALSE(std::filesystem::exists(folder / "fork.earthwork"));
 }
 
 }  // namespace

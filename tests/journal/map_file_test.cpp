@@ -58,8 +58,9 @@ class MapFile : public testing::Test {
     const auto opened = open_map_file(path, access);
     EXPECT_FALSE(opened);
     if (opened) return Code::internal;
-    EXPECT_NE(opened.error().detail.find(path.string()), std::string::npos)
-        << opened.error().detail;
+    EXPECT_EQ(opened.error().detail.find("map.earthwork: "), 0u) << opened.error().detail;
+    EXPECT_EQ(opened.error().detail.find(folder.path().string()), std::string::npos)
+        << "clients are not told where files are";
     return opened.error().code;
   }
   std::vector<std::string> names() {
@@ -252,18 +253,65 @@ TEST_F(MapFile, MayHaveAnyFolderName) {
 }
 
 TEST_F(MapFile, OfAnotherKindIsRefused) {
-  write_bytes(path, "");
-  EXPECT_EQ(refusal(), Code::bad_version);
   write_bytes(path, std::string(5000, 'x'));
   EXPECT_EQ(refusal(), Code::damaged);
   std::filesystem::remove(path);
   Shell(path).run("CREATE TABLE events(seq)");
+  const std::string bytes = read_bytes(path);
   EXPECT_EQ(refusal(), Code::bad_version);
+  EXPECT_EQ(read_bytes(path), bytes) << "another program's file stays as it is";
   std::filesystem::remove(path);
   static_cast<void>(create());
   Shell(path).run("PRAGMA user_version = 2");
   EXPECT_EQ(refusal(), Code::bad_version);
   EXPECT_EQ(refusal(Access::read), Code::bad_version);
+}
+
+TEST_F(MapFile, OfNoBytesIsDamaged) {
+  for (const Access access : {Access::write, Access::read}) {
+    write_bytes(path, "");
+    EXPECT_EQ(refusal(access), Code::damaged);
+    EXPECT_EQ(names(), std::vector<std::string>{"map.earthwork"});
+    EXPECT_EQ(read_bytes(path), "");
+  }
+}
+
+TEST_F(MapFile, IsNotWrittenOnceItWasTakenAway) {
+  const auto journal = create();
+  log.write(*journal, {3});
+  std::filesystem::rename(path, folder / "taken.earthwork");
+  const auto gone = journal->append(3, log.more(1));
+  ASSERT_FALSE(gone) << "acknowledged, and nowhere to be found";
+  EXPECT_EQ(gone.error().code, Code::damaged);
+  EXPECT_EQ(gone.error().detail.find("map.earthwork: "), 0u) << gone.error().detail;
+
+  static_cast<void>(create_map_file(folder / "other.earthwork", sample_identity()));
+  std::filesystem::rename(folder / "other.earthwork", path);
+  const auto replaced = journal->append(3, log.more(1));
+  ASSERT_FALSE(replaced);
+  EXPECT_EQ(replaced.error().code, Code::damaged);
+}
+
+TEST_F(MapFile, ShrinksItsWriteAheadFileOnceALongReaderIsGone) {
+  const auto journal = create();
+  const auto write = [&](std::size_t events) {
+    const std::uint64_t expected = log.last_seq();
+    auto batch = log.more(events);
+    for (auto& event : batch) {
+      event.edit.is_path = true;
+      event.edit.path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
+    }
+    ASSERT_TRUE(journal->append(expected, batch));
+  };
+  const auto wal_bytes = [&] { return std::filesystem::file_size(path.string() + "-wal"); };
+  {
+    Shell reader(path);
+    reader.run("BEGIN; SELECT count(*) FROM events");
+    for (int i = 0; i < 4; ++i) write(100);
+    EXPECT_GT(wal_bytes(), std::size_t{10} << 20);
+  }
+  for (int i = 0; i < 3; ++i) write(1);
+  EXPECT_LE(wal_bytes(), std::size_t{9} << 20);
 }
 
 TEST_F(MapFile, WithAnotherSchemaIsRefusedAndNothingOfItRuns) {
@@ -385,6 +433,18 @@ TEST_F(MapFile, IsForkedUpToASeq) {
   ASSERT_FALSE(taken);
   EXPECT_EQ(taken.error().code, Code::map_exists);
   for (const std::string& name : names()) EXPECT_FALSE(name.starts_with('.')) << name;
+}
+
+TEST_F(MapFile, TakesNoRoomForWhatAForkLeavesOut) {
+  {
+    const auto journal = create();
+    log.write(*journal, {10, 2000});
+  }
+  const auto fork = folder / "fork.earthwork", fresh = folder / "fresh.earthwork";
+  ASSERT_TRUE(fork_map_file(path, fork, 1, 2, 10));
+  SampleLog().write(*create_map_file(fresh, sample_identity()).value(), {10});
+  EXPECT_GT(std::filesystem::file_size(path), 3 * std::filesystem::file_size(fresh));
+  EXPECT_LE(std::filesystem::file_size(fork), std::filesystem::file_size(fresh) + 4096);
 }
 
 TEST_F(MapFile, IsForkedWithWhatACrashLeftInItsWriteAheadFile) {
