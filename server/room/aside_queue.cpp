@@ -26,14 +26,23 @@ void AsideQueue::start_what_may() {
       waiting_.pop_front();
     }
     run_([self = shared_from_this(), task = std::move(next)] {
-      task();
-      {
-        const std::lock_guard lock(self->mutex_);
-        --self->running_;
+      try {
+        task();
+      } catch (...) {
+        self->ended();
+        throw;
       }
-      self->start_what_may();
+      self->ended();
     });
   }
+}
+
+void AsideQueue::ended() {
+  {
+    const std::lock_guard lock(mutex_);
+    --running_;
+  }
+  start_what_may();
 }
 
 }  // namespace earthwork::room

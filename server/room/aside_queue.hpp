@@ -18,11 +18,13 @@ class AsideQueue : public std::enable_shared_from_this<AsideQueue> {
   /// more than `most` that have not ended.
   AsideQueue(std::function<void(Strand::Task)> run, int most);
 
-  /// Runs the task when its turn comes, in order: perhaps within the call. It must not throw.
+  /// Runs the task when its turn comes, in order: perhaps within the call. What it throws goes on
+  /// to whoever runs it, and has ended that task alone.
   void post(Strand::Task task);
 
  private:
   void start_what_may();
+  void ended();
 
   const std::function<void(Strand::Task)> run_;
   const int most_;

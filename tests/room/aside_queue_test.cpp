@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,14 @@ TEST(AsideQueue, RunsWithinTheCallWhereTasksMay) {
     ran += ")";
   });
   EXPECT_EQ(ran, "outer()inner");
+}
+
+TEST(AsideQueue, GoesOnAfterATaskThatThrows) {
+  const auto queue = std::make_shared<AsideQueue>([](const Strand::Task& task) { task(); }, 1);
+  EXPECT_THROW(queue->post([] { throw std::bad_alloc(); }), std::bad_alloc);
+  bool ran = false;
+  queue->post([&] { ran = true; });
+  EXPECT_TRUE(ran);
 }
 
 TEST(AsideQueue, GoesOnWhenNobodyElseHoldsIt) {
