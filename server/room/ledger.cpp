@@ -3,8 +3,9 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
-#include <exception>
 #include <utility>
+
+#include "server/room/caught.hpp"
 
 namespace earthwork::room {
 namespace {
@@ -29,11 +30,7 @@ struct Ledger::Batch {
   std::atomic<State> state{State::posting};
 
   void append_to(journal::Journal& journal) {
-    try {
-      result = journal.append(expected_seq, events);
-    } catch (const std::exception& error) {
-      result = protocol::fail(protocol::Code::internal, error.what());
-    }
+    result = caught([&] { return journal.append(expected_seq, events); });
   }
 };
 

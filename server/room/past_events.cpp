@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "server/room/caught.hpp"
+
 namespace earthwork::room {
 namespace {
 
@@ -73,11 +75,12 @@ const history::Event* PastEvents::at_hand(std::uint64_t seq) {
 void PastEvents::read(std::uint64_t seq) {
   reading_ = seq;
   within_find_ = true;
-  clerk_.post(
-      journal::Urgency::idle, [this, seq, back = workplace_().back](journal::Journal& journal) {
-        auto page = std::make_shared<protocol::Result<Page>>(journal.events(seq, kEventPageBytes));
-        back([this, page] { arrived(std::move(*page)); });
-      });
+  clerk_.post(journal::Urgency::idle,
+              [this, seq, back = workplace_().back](journal::Journal& journal) {
+                auto page = std::make_shared<protocol::Result<Page>>(
+                    caught([&] { return journal.events(seq, kEventPageBytes); }));
+                back([this, page] { arrived(std::move(*page)); });
+              });
   within_find_ = false;
 }
 

@@ -6,6 +6,8 @@
 #include <rapidcheck.h>
 
 #include <memory>
+#include <new>
+#include <optional>
 #include <vector>
 
 #include "tests/journal/logs.hpp"
@@ -153,6 +155,15 @@ TEST_F(PastEventsTest, AFailureIsToldOnceForEveryAttempt) {
   past->when_page_comes([] {});
   clerk->run();
   EXPECT_EQ(seq_at(300), 300u);
+}
+
+TEST_F(PastEventsTest, AJournalThatThrowsHasFailed) {
+  log->change_event = [](Event&) { throw std::bad_alloc(); };
+  EXPECT_EQ(seq_at(300), 0u);
+  std::optional<protocol::Code> code;
+  past->when_page_comes([&] { code = past->find(300).error().code; });
+  clerk->run();
+  EXPECT_EQ(code, protocol::Code::internal);
 }
 
 TEST_F(PastEventsTest, AFailureThatNobodyAsksForIsForgotten) {
