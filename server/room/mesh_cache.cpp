@@ -52,6 +52,7 @@ void MeshCache::mark_stale(std::span<const voxel::ChunkKey> keys) {
 void MeshCache::touch(const voxel::ChunkKey& key) {
   const auto [place, first] = stale_.try_emplace(key);
   Stale& stale = place->second;
+  if (first || stale.revision != 0) ++dirty_;
   stale.revision = 0;
   if (!first && !stale.bare) return;
   stale.bare = false;
@@ -63,6 +64,7 @@ void MeshCache::touch(const voxel::ChunkKey& key) {
 void MeshCache::forget_stale(StaleOnes::iterator place) {
   if (place == stale_.end()) return;
   if (place->second.without_mesh) --without_mesh_;
+  if (place->second.revision == 0) --dirty_;
   stale_.erase(place);
 }
 

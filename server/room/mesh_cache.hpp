@@ -57,6 +57,8 @@ class MeshCache {
   void put(const voxel::ChunkKey& key, std::optional<CachedMesh> made);
 
   [[nodiscard]] std::size_t stale_count() const { return stale_.size(); }
+  /// Of those, the ones that an edit has touched: not the ones that only were never made.
+  [[nodiscard]] std::size_t dirty_count() const { return dirty_; }
   /// Up to `most` stale chunks, any.
   [[nodiscard]] std::vector<voxel::ChunkKey> some_stale(std::size_t most) const;
 
@@ -95,6 +97,7 @@ class MeshCache {
   std::map<voxel::ChunkKey, CachedMesh> meshes_;
   StaleOnes stale_;
   std::size_t without_mesh_ = 0;  // of the stale ones: have no mesh now, and may have one
+  std::size_t dirty_ = 0;         // of the stale ones: their revision is 0
   MeshTotals totals_;
 };
 

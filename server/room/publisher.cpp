@@ -98,6 +98,7 @@ void Publisher::durable(std::uint64_t seq) {
   durable_ = seq;
   if (!waited || !shown_is_durable()) return;
   before_.clear();
+  overtaken_ = false;
   take_up_views();
   publish(std::exchange(beat_waits_, false) ? Beat::due : Beat::wait);
 }
@@ -119,6 +120,7 @@ void Publisher::taken_back() {
       pending_.insert(key);
     }
     seq_ = delivered_;
+    overtaken_ = false;
   }
   if (latest_ == seq_) pending_.clear();
   publish_soon();
@@ -218,12 +220,18 @@ void Publisher::end_round() {
   publish(Beat::wait);
 }
 
+// What is shown may be gone on over while it is not durable, but not twice in a row: however many
+// ask without end while edits come without end, at least every second commit shows something.
 bool Publisher::refresh(std::size_t budget) {
   if (round_) {
     if (!round_->help(maker_, budget)) return false;
     end_round();
   }
-  if (latest_ != seq_) publish_soon();  // also what changed no mesh has a number to tell
+  if (latest_ != seq_) {
+    if (overtaken_) return false;
+    overtaken_ = !shown_is_durable();
+    publish_soon();  // also what changed no mesh has a number to tell
+  }
   take_in_pending();
   if (meshes_.stale_count() > 0) {
     make_here(meshes_.some_stale(budget));

@@ -92,7 +92,8 @@ class Publisher {
   void taken_back();
 
   /// Brings up to `budget` chunks' meshes up to date with the map, or a few more; true when all
-  /// are. May deliver parcels.
+  /// are. May deliver parcels. When it has gone on over something that waits to be durable, it does
+  /// so again only after that was delivered, and until then gives false.
   [[nodiscard]] bool refresh(std::size_t budget);
   /// As of the map's latest edit when `refresh` gave true in the same task.
   [[nodiscard]] const MeshTotals& totals() const { return meshes_.totals(); }
@@ -100,8 +101,8 @@ class Publisher {
 
   /// Chunks that wait to be sent, of all viewers together.
   [[nodiscard]] std::size_t owed_chunks() const;
-  /// Chunks whose meshes are not up to date.
-  [[nodiscard]] std::size_t dirty_chunks() const { return meshes_.stale_count() + pending_.size(); }
+  /// Chunks that changed since their meshes were made.
+  [[nodiscard]] std::size_t dirty_chunks() const { return meshes_.dirty_count() + pending_.size(); }
 
  private:
   struct Show {
@@ -149,6 +150,7 @@ class Publisher {
   std::uint64_t durable_ = 0;
   std::uint64_t delivered_ = 0;  // while seq_ is not durable: the one before it, which is;
   Before before_;                // and of all that is different, made or stale since, what was then
+  bool overtaken_ = false;       // `refresh` has gone on over one since then, undelivered
   std::unordered_set<voxel::ChunkKey, voxel::ChunkKeyHash> pending_;  // not taken in yet
   std::shared_ptr<MeshRound> round_;                                  // that runs
   MeshMaker maker_;                                                   // the strand's

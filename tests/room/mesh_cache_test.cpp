@@ -239,6 +239,21 @@ TEST_F(RestoredCache, WhatIsTouchedBeforeItIsMadeIsNew) {
   EXPECT_FALSE(at(8, 0)->delta);  // what somebody has of it is not known here
 }
 
+TEST_F(RestoredCache, OnlyWhatWasTouchedIsDirty) {
+  EXPECT_EQ(cache.dirty_count(), 0u);
+  EXPECT_GT(cache.stale_count(), 0u);
+  cache.mark_stale(std::vector<voxel::ChunkKey>{{0, 0, 0}, {0, 20, 20}});
+  cache.mark_stale(std::vector<voxel::ChunkKey>{{0, 0, 0}});
+  EXPECT_EQ(cache.dirty_count(), 2u);
+  const Forerunner before = cache.forerunner({0, 0, 0}, 10);
+  at(0, 0);
+  EXPECT_EQ(cache.dirty_count(), 1u);
+  cache.take_back({0, 0, 0}, before);
+  EXPECT_EQ(cache.dirty_count(), 2u);
+  make_some(99);
+  EXPECT_EQ(cache.dirty_count(), 0u);
+}
+
 TEST_F(RestoredCache, NothingIsBeyondTheBounds) {
   voxel::Map bounded = history::make_map({.chunk_resolution = 8, .chunks = {{0, 0, 4, 4}}});
   MeshCache restored;
