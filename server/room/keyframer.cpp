@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "server/room/caught.hpp"
+
 namespace earthwork::room {
 namespace {
 
@@ -141,7 +143,7 @@ void Keyframer::go_on() {
     subject_.clerk.post(
         journal::Urgency::idle,
         [this, step = attempt_->steps.front(), back = subject_.workplace().back](Journal& journal) {
-          back([this, outcome = step(journal)] { came(outcome); });
+          back([this, outcome = caught([&] { return step(journal); })] { came(outcome); });
         });
   }
   posting_ = false;
@@ -151,6 +153,7 @@ void Keyframer::came(const Result<bool>& outcome) {
   attempt_->with_clerk = false;
   if (!outcome) {
     spdlog::warn("keyframe {}: {}", attempt_->keyframe.seq, outcome.error().detail);
+    ++subject_.meters->journal_failures[static_cast<std::size_t>(outcome.error().code)];
     tried_seq_ = attempt_->keyframe.seq;
     drop();
   } else if (*outcome) {
@@ -163,6 +166,7 @@ void Keyframer::came(const Result<bool>& outcome) {
 }
 
 void Keyframer::note_put() {
+  ++subject_.meters->keyframes;
   newest_seq_ = tried_seq_ = attempt_->keyframe.seq;
   attempt_->changed.clear();
   attempt_->authors.clear();

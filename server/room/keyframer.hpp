@@ -15,6 +15,7 @@
 #include "server/journal/clerk.hpp"
 #include "server/journal/restore.hpp"
 #include "server/room/mesh_round.hpp"
+#include "server/room/meters.hpp"
 #include "server/room/strand.hpp"
 #include "server/voxel/map.hpp"
 
@@ -49,6 +50,7 @@ class Keyframer {
     /// from within the call.
     std::function<Workplace()> workplace;
     const Strand& clock;
+    std::shared_ptr<Meters> meters;  ///< Counts what is put, and what fails.
   };
   /// `start` is how the map began: all of it is durable. What `subject` refers to outlives it.
   Keyframer(Subject subject, const journal::Restored& start, KeyframePace pace = {});
@@ -73,6 +75,9 @@ class Keyframer {
   /// not end this object. When nothing is accepted that is not durable; should something be
   /// accepted before `done`, the keyframe may be left out. Not again before `done`.
   void finish(std::function<void()> done);
+
+  /// Nobody waits for that `done` any more: it is not called.
+  void give_up() { finished_ = nullptr; }
 
   /// Nothing is with the clerk, or waits for a batch.
   [[nodiscard]] bool resting() const { return !attempt_; }

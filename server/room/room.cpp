@@ -53,7 +53,7 @@ Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
                 run_later(delay, std::move(task));
               }),
       keyframer_({map_, [this](std::uint64_t author) { return desk_.authors().state(author); },
-                  *clerk_, [this] { return workplace(); }, *strand_},
+                  *clerk_, [this] { return workplace(); }, *strand_, meters_},
                  opening.restored),
       desk_(
           map_, commits_, opening.restored.authors, opening.restored.seq, meters_,
@@ -271,6 +271,7 @@ void Room::take_back(const protocol::Failure& failure) {
   desk_.take_back(failure);
   assert(map_.hash() == ledger_.durable().hash);
   keyframer_.taken_back();
+  publisher_.durable(ledger_.durable().seq);  // the batch before may have ended just now
   publisher_.taken_back();
   figures_.reset();
 }
@@ -290,7 +291,7 @@ void Room::let_go() {
 
 void Room::once_durable(std::function<void(bool)> then) {
   used();
-  if (closed_) return then(ledger_.idle());
+  if (closed_) return then(false);
   ledger_.once_durable(std::move(then));
 }
 
@@ -356,6 +357,7 @@ void Room::close(const protocol::Bye& bye) {
   publisher_.leave_all();
   herald_.leave_all();
   ledger_.give_up();
+  keyframer_.give_up();
   seats_.end(bye);
 }
 

@@ -54,7 +54,7 @@ struct RoomLoad {
   std::size_t waiting_edits = 0;    ///< In line, with the one that is being prepared.
   std::int64_t oldest_wait_ms = 0;  ///< Of those, the one that came first; 0 when none waits.
   std::size_t owed_chunks = 0;      ///< Waiting to be sent, of all viewers together.
-  std::size_t dirty_chunks = 0;     ///< Whose meshes are not up to date.
+  std::size_t dirty_chunks = 0;     ///< Changed, and not meshed again yet.
   std::size_t viewers = 0;
 };
 
@@ -130,7 +130,8 @@ class Room : public std::enable_shared_from_this<Room> {
   void once_durable(std::function<void(bool kept)> then);
   /// When nobody is inside, no edit waits and nothing is in flight: closes the room, which then
   /// refuses with `unavailable`, makes a last keyframe, lets go of the clerk, and then calls
-  /// `closed`, on any thread. False, and nothing happens, when it is in use or closed.
+  /// `closed`, on any thread, unless `close` comes first. False, and nothing happens, when it is in
+  /// use or closed.
   [[nodiscard]] bool retire(std::function<void()> closed);
   /// Of the last join, leave, edit or question.
   [[nodiscard]] std::int64_t last_used_ms() const { return last_used_ms_; }
@@ -140,8 +141,9 @@ class Room : public std::enable_shared_from_this<Room> {
   [[nodiscard]] RoomInfo info();
   [[nodiscard]] RoomLoad load() const;
   /// Brings up to `budget` chunks' meshes up to date with all that is applied; true when all are.
-  /// Whoever needs several calls waits with `once_durable` before each, so that viewers are not
-  /// kept waiting for what is newer and newer.
+  /// Viewers come first: while they wait for a commit that meshes were brought past before, it is
+  /// false and nothing is made. So whoever needs several calls waits with `once_durable` before
+  /// each.
   [[nodiscard]] bool refresh_meshes(std::size_t budget);
   /// After `refresh_meshes` gave true in the same task. These three are of what is applied: they
   /// are told to nobody before `once_durable`, asked in the same task, says that it was kept.

@@ -426,6 +426,52 @@ TEST_F(CommitTest, AnEditInPreparationIsRefusedToo) {
   check_folds(*this);
 }
 
+TEST_F(CommitTest, AFailureThatIsKnownAtOnceTakesNothingBackOfTheBatchBefore) {
+  edit(ann, disc(4, 4, 3));
+  edit(ann, disc(30, 4, 3));  // waits for the first
+  store();
+  clerk->at_once = true;  // so it fails within the call that hands it over
+  fickle->trouble = protocol::Failure{Code::disk_full, "the disk is full", {}};
+  context.run();
+  EXPECT_EQ(ann.eyes->acks, (std::vector<protocol::Applied>{{1, 1}}));
+  ASSERT_EQ(ann.eyes->refusals.size(), 1u);
+  settle(bob);
+  EXPECT_FALSE(bob.eyes->chunks.empty());
+  EXPECT_EQ(bob.eyes->mesh_hash(), mesh_hash());
+  EXPECT_EQ(bob.eyes->parcels.at(0).group->seq, 1u);
+  check_folds(*this);
+}
+
+TEST_F(CommitTest, NothingIsKeptInARoomThatHasClosed) {
+  edit(ann, disc(4, 4, 2));
+  fail(Code::damaged);
+  ASSERT_TRUE(room->closed());
+  std::vector<bool> told;  // the map still has the edit, and the journal has not
+  room->once_durable([&](bool kept) { told.push_back(kept); });
+  EXPECT_EQ(told, std::vector<bool>{false});
+}
+
+/// Somebody asks for figures all the time, and edits come all the time.
+TEST_F(CommitTest, WhoAsksForTheNewestDoesNotKeepViewersWaiting) {
+  std::uint64_t shown = 0;
+  int last_shown = 0, answered = 0;
+  const auto ask = [&] { answered += room->refresh_meshes(1000) ? 1 : 0; };
+  for (int step = 1; step <= 40; ++step) {
+    edit(ann, disc(4 + step, 4, 2)), ask();
+    store();
+    edit(ann, disc(4, 4 + step, 2)), ask();
+    room->ready(bob.id);
+    if (bob.eyes->parcels.empty()) continue;
+    EXPECT_GT(bob.eyes->parcels.back().group->seq, shown);
+    shown = bob.eyes->parcels.back().group->seq;
+    bob.eyes->forget_parcels();
+    EXPECT_LE(step - last_shown, 2);
+    last_shown = step;
+  }
+  EXPECT_GE(last_shown, 39);
+  EXPECT_GE(answered, 20);
+}
+
 TEST_F(CommitTest, AJournalThatIsAnotherClosesTheRoom) {
   for (const Code code : {Code::bad_state, Code::damaged, Code::internal}) {
     SlowWorld world;

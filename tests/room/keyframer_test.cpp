@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -34,6 +35,7 @@ struct Record {
   std::vector<Keyframe> keyframes;
   int puts = 0, tidied = 0;
   std::optional<int> fail_after;  // so many puts
+  bool throws = false;            // when a keyframe is put
 };
 
 /// A journal whose puts may fail.
@@ -59,6 +61,7 @@ class WatchedJournal final : public journal::Journal {
   }
   Result<void> put_keyframe(const Keyframe& keyframe) override {
     if (fails()) return failure();
+    if (record_.throws) throw std::bad_alloc();
     record_.keyframes.push_back(keyframe);
     return inner_->put_keyframe(keyframe);
   }
@@ -90,7 +93,7 @@ struct Workshop {
         start(journal::restore(clerk.journal(), {}, journal::Trust::strict).value()),
         map(start.map),
         keyframer({map, [this](std::uint64_t author) { return authors[author]; }, clerk,
-                   back_at_once, *clock},
+                   back_at_once, *clock, meters},
                   start, pace) {
     for (const AuthorState& author : start.authors) authors[author.author] = author;
     seq = start.seq;
@@ -151,6 +154,7 @@ struct Workshop {
   ManualClerk clerk;
   ManualContext context;
   std::unique_ptr<Strand> clock = context.make_strand();
+  std::shared_ptr<Meters> meters = std::make_shared<Meters>();
   journal::Restored start;
   voxel::Map map;
   BeforeImages before;
@@ -281,6 +285,27 @@ TEST(Keyframer, AFailedOneIsMadeAgainLater) {
   EXPECT_TRUE(journal::audit(w.clerk.journal())->sound());
 }
 
+TEST(Keyframer, CountsWhatIsPutAndWhatFails) {
+  Workshop w;
+  const auto failures = [&w](protocol::Code code) {
+    return w.meters->journal_failures[static_cast<std::size_t>(code)].load();
+  };
+  w.edits(kKeyframeEvents), w.commit(), w.clerk.run();
+  EXPECT_EQ(w.meters->keyframes, 1u);
+  w.record.fail_after = 0;
+  w.edits(kKeyframeEvents), w.commit(), w.clerk.run();
+  EXPECT_EQ(w.meters->keyframes, 1u);
+  EXPECT_EQ(failures(protocol::Code::disk_full), 1u);
+  w.record.fail_after.reset();
+  w.record.throws = true;  // a clerk's thread does not survive an exception
+  w.edits(kKeyframeEvents), w.commit(), w.clerk.run();
+  EXPECT_EQ(failures(protocol::Code::internal), 1u);
+  w.record.throws = false;
+  w.edits(kKeyframeEvents), w.commit(), w.clerk.run();
+  EXPECT_EQ(w.meters->keyframes, 2u);
+  EXPECT_TRUE(w.restores());
+}
+
 TEST(Keyframer, PutsWhatItRemembersOfAuthorsAFewAtATime) {
   Workshop w;
   for (std::uint64_t i = 0; i < kKeyframeEvents; ++i)
@@ -380,7 +405,7 @@ TEST(Keyframer, AClerkThatWorksAtOnceIsNotCalledFromItsTasks) {
                          return *std::find_if(start->authors.begin(), start->authors.end(),
                                               [&](const auto& a) { return a.author == author; });
                        },
-                       *clerk, back_at_once, *clock},
+                       *clerk, back_at_once, *clock, std::make_shared<Meters>()},
                       *start);
   int done = 0;
   keyframer.finish([&] { ++done; });
@@ -401,12 +426,13 @@ TEST(Keyframer, WhatComesForARoomThatIsGoneIsDropped) {
                        if (alive) task();
                      }};
   };
-  auto keyframer = std::make_unique<Keyframer>(Keyframer::Subject{start.map,
-                                                                  [](std::uint64_t a) {
-                                                                    return AuthorState{a, {{1, 1}}};
-                                                                  },
-                                                                  clerk, place, *clock},
-                                               start);
+  auto keyframer = std::make_unique<Keyframer>(
+      Keyframer::Subject{start.map,
+                         [](std::uint64_t a) {
+                           return AuthorState{a, {{1, 1}}};
+                         },
+                         clerk, place, *clock, std::make_shared<Meters>()},
+      start);
   keyframer->finish([] { FAIL(); });
   keyframer.reset();
   alive = false;

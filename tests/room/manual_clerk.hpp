@@ -18,6 +18,7 @@ class ManualClerk final : public journal::Clerk {
   explicit ManualClerk(std::unique_ptr<journal::Journal> journal) : journal_(std::move(journal)) {}
 
   void post(journal::Urgency urgency, Task task) override {
+    if (at_once) return task(*journal_);
     (urgency == journal::Urgency::now ? now_ : idle_).push_back(std::move(task));
   }
   /// Runs tasks, also those that they lead to, until none is left or `most` have run. Gives back
@@ -32,6 +33,7 @@ class ManualClerk final : public journal::Clerk {
     }
     return ran;
   }
+  bool at_once = false;  ///< What is posted runs within the call.
   [[nodiscard]] std::size_t waiting() const { return now_.size() + idle_.size(); }
   [[nodiscard]] std::size_t waiting_idle() const { return idle_.size(); }
   [[nodiscard]] journal::Journal& journal() { return *journal_; }

@@ -85,7 +85,7 @@ void check_log(SlowWorld& world) {
 void step(SlowWorld& world, std::vector<Witness>& witnesses) {
   Witness& who = witnesses[*rc::gen::inRange<std::size_t>(0, witnesses.size())];
   switch (*rc::gen::weightedElement<int>(
-      {{5, 0}, {5, 1}, {4, 2}, {2, 3}, {4, 4}, {1, 5}, {1, 6}, {2, 7}})) {
+      {{5, 0}, {5, 1}, {4, 2}, {2, 3}, {4, 4}, {1, 5}, {1, 6}, {2, 7}, {1, 8}})) {
     case 0:
       (void)world.submit(who.guest, some_edit());  // refused for a second after a failure
       break;
@@ -108,6 +108,14 @@ void step(SlowWorld& world, std::vector<Witness>& witnesses) {
       break;
     case 6:
       (void)world.room->refresh_meshes(static_cast<std::size_t>(*rc::gen::inRange(0, 30)));
+      break;
+    case 8:  // the batch in flight ends well, and what is handed over then fails at once
+      world.clerk->run();
+      world.fickle->trouble = protocol::Failure{Code::disk_full, "the disk is full", {}};
+      world.clerk->at_once = true;
+      world.context.run(*rc::gen::inRange(1, 8));
+      world.clerk->at_once = false;
+      world.fickle->trouble.reset();
       break;
     default:
       world.context.advance(std::chrono::milliseconds(*rc::gen::element(1, 100, 1000)));
