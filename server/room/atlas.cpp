@@ -49,6 +49,7 @@ class Atlas::Core : public std::enable_shared_from_this<Core> {
   enum class By { itself, sweep };
   void let_go(const Room& room, By whom);
   bool stop(std::chrono::milliseconds patience);
+  void part();
   void sweep_later();
 
   const std::shared_ptr<Meters> meters;
@@ -269,6 +270,7 @@ void Atlas::Core::closed(const std::string& name, std::uint64_t opening) {
     Page& page = found->second;
     if (page.state != Page::State::live && page.state != Page::State::closing) return;
     after.push_back([gone = page.take_room()] {});
+    page.lease.reset();
     page.state = Page::State::closed;
     changed_.notify_all();
     if (page.erasing) return start_removing(name, page, after);
@@ -333,8 +335,8 @@ void Atlas::Core::sweep_later() {
   strand_->post_after(pause, [weak = weak_from_this()] {
     const auto self = weak.lock();
     if (!self) return;
-    self->sweep();
     self->sweep_later();
+    self->sweep();
   });
 }
 
@@ -390,6 +392,22 @@ bool Atlas::Core::stop(std::chrono::milliseconds patience) {
   return all;
 }
 
+// Where `stop` ran out of patience, rooms wait for commits on strands that do not run any more, and
+// hold one another's end up: whoever waits for one holds it. Their clerks must not outlive strands.
+void Atlas::Core::part() {
+  std::vector<RoomMaker::Furnished> left;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!over_) return;
+    for (auto& [name, page] : pages_)
+      if (page.state == Page::State::closing) left.push_back({page.parting.lock(), page.lease});
+  }
+  for (const auto& [room, lease] : left) {
+    if (room) room->close({.failure = ending().value(), .retry_after_ms = {}});
+    if (lease) lease->end();
+  }
+}
+
 bool Atlas::Core::over() const {
   const std::lock_guard lock(mutex_);
   return over_;
@@ -399,7 +417,7 @@ Atlas::Atlas(AtlasOptions options) : core_(std::make_shared<Core>(std::move(opti
   core_->sweep_later();
 }
 
-Atlas::~Atlas() = default;
+Atlas::~Atlas() { core_->part(); }
 
 protocol::Result<void> Atlas::take_stock() { return core_->take_stock(); }
 

@@ -49,7 +49,8 @@ class Atlas {
   using Erased = std::function<void(protocol::Result<void>)>;
 
   explicit Atlas(AtlasOptions options);
-  /// Rooms that still live are let go of; `stop` is what waits for their journals.
+  /// Rooms that still live are let go of; `stop` is what waits for their journals. After one that
+  /// ran out of patience the strands must have ended, and what it waited for is waited for here.
   ~Atlas();
   Atlas(const Atlas&) = delete;
   Atlas& operator=(const Atlas&) = delete;

@@ -23,7 +23,8 @@ struct Page {
 
   State state = State::closed;
   std::shared_ptr<Room> room{};          // while live
-  std::shared_ptr<Lease> lease{};        // of the room's clerk, while live
+  std::shared_ptr<Lease> lease{};        // of the room's clerk, while live or closing
+  std::weak_ptr<Room> parting{};         // while closing, if anybody still holds it
   std::uint64_t opening = 0;             // which one brought the room that it has, or had last
   bool visited = false;                  // somebody came in since it was opened, or is about to
   std::vector<Atlas::Opened> waiting{};  // for a room
@@ -35,7 +36,8 @@ struct Page {
   /// The room is not live any more, whoever still holds it.
   [[nodiscard]] RoomMaker::Furnished take_room() {
     state = State::closing;
-    return {std::exchange(room, nullptr), std::exchange(lease, nullptr)};
+    if (room) parting = room;
+    return {std::exchange(room, nullptr), lease};
   }
 };
 

@@ -407,6 +407,37 @@ TEST_F(KeptAtlasTest, StopsOnceEveryJournalIsClosed) {
   EXPECT_EQ(shelf->maps.at("a").journal->last_seq(), 1u);
 }
 
+TEST_F(KeptAtlasTest, WhatStopHadNoPatienceForIsWaitedForAtTheEnd) {
+  auto room = open("a").value();
+  const std::weak_ptr<Room> waits = room;
+  shelf->hold();
+  paint(*room, 1);
+  room.reset();
+  EXPECT_FALSE(atlas->stop(0ms));
+  context.run();  // the room waits for its commit, and who waits holds the room
+  EXPECT_FALSE(waits.expired());
+  atlas.reset();
+  EXPECT_EQ(open_now("a"), 0);
+  context.run();
+  EXPECT_TRUE(waits.expired());
+  EXPECT_EQ(shelf->maps.at("a").journal->last_seq(), 1u);
+}
+
+TEST_F(KeptAtlasTest, ARoomThatIsPutAwayMeanwhileIsLetGoOfToo) {
+  auto room = open("a").value();
+  const std::weak_ptr<Room> waits = room;
+  paint(*room, 1);
+  shelf->hold();
+  room.reset();
+  pass(70s);  // its last keyframe is on its way
+  EXPECT_FALSE(waits.expired());
+  EXPECT_FALSE(atlas->stop(0ms));
+  atlas.reset();
+  context.run();
+  EXPECT_TRUE(waits.expired());
+  EXPECT_EQ(open_now("a"), 0);
+}
+
 TEST_F(KeptAtlasTest, LetsGoOfItsRoomsAtItsEnd) {
   auto room = open("a").value();
   atlas.reset();
