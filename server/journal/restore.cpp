@@ -59,6 +59,12 @@ Result<Execution> load_keyframe(Journal& journal, const Keyframe& keyframe) {
     return damage(journal.name(), "keyframes", keyframe.seq,
                   "the stored hash is " + protocol::hex(keyframe.map_hash) + ", its chunks give " +
                       protocol::hex(loaded.hash));
+  // The log is the truth, as far as it can be read there.
+  if (const auto event = journal.events(keyframe.seq, 1);
+      event && !event->empty() && event->front().hash != loaded.hash)
+    return damage(journal.name(), "keyframes", keyframe.seq,
+                  "its chunks give hash " + protocol::hex(loaded.hash) + ", and the log says " +
+                      protocol::hex(event->front().hash));
   return loaded;
 }
 

@@ -205,6 +205,21 @@ TEST(Restore, ComparesTheKeyframesHash) {
                                      protocol::hex(ten_events()[3].hash));
 }
 
+// The log goes no further, so no later event tells.
+TEST(Restore, ComparesTheLastKeyframeWithTheLog) {
+  TamperedJournal journal(journal_of(ten_events(), {10}));
+  const std::uint64_t other = ten_events()[9].hash ^ 1;
+  journal.change_event = [other](history::Event& event) {
+    if (event.seq == 10) event.hash = other;
+  };
+  const auto refused = restore(journal, {}, Trust::strict);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().detail, "keyframes: seq 10: its chunks give hash " +
+                                        protocol::hex(ten_events()[9].hash) +
+                                        ", and the log says " + protocol::hex(other));
+  EXPECT_EQ(restore(journal, 9, Trust::salvage)->hash, ten_events()[8].hash);
+}
+
 TEST(Restore, RefusesChunksThatTheMapCannotHave) {
   for (const auto& change : std::vector<std::function<void(ChunkState&)>>{
            [](ChunkState& state) { state.key.layer = 1; },
