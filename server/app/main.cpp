@@ -5,14 +5,19 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
+#include "server/app/answer.hpp"
 #include "server/app/map_command.hpp"
 #include "server/app/serve.hpp"
 
 namespace {
 
+using earthwork::app::kFailed;
+using earthwork::app::kUsage;
+using earthwork::app::refuse;
+
 constexpr const char* kVersion = "earthwork-server " EARTHWORK_VERSION;
-constexpr int kFailed = 1, kUsage = 2;
 
 void add_serve(CLI::App& app, earthwork::app::ServeFlags& flags) {
   CLI::App* serve = app.add_subcommand("serve", "Serve maps over HTTP and WebSocket");
@@ -62,8 +67,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "earthwork-server: %s (--help says more)\n", error.what());
-    return kUsage;
+    return refuse(kUsage, std::string(error.what()) + " (--help says more)");
   }
   return map.run ? map.run(map.flags) : earthwork::app::serve(flags);
 }
@@ -76,7 +80,6 @@ int main(int argc, char** argv) {
     spdlog::set_default_logger(spdlog::stderr_color_mt("earthwork"));
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "earthwork-server: %s\n", error.what());
-    return kFailed;
+    return refuse(kFailed, error.what());
   }
 }

@@ -19,16 +19,27 @@ using nlohmann::ordered_json;
 using protocol::Code;
 using protocol::hex;
 
+/// Of an event that is there: what reads a map is not told when it is opened that its end is
+/// missing.
+protocol::Result<std::uint64_t> last_seq_of(const std::filesystem::path& path) {
+  const auto opened = journal::open_map_file(path, journal::Access::read);
+  if (!opened) return tl::unexpected<protocol::Failure>(opened.error());
+  const std::uint64_t last = (*opened)->last_seq();
+  if (last > 0)
+    if (const auto event = (*opened)->events(last, 1); !event)
+      return tl::unexpected<protocol::Failure>(event.error());
+  return last;
+}
+
 ordered_json listed(const DataDirectory& folder, const std::string& name) {
   const auto path = folder.map_file(name);
-  const auto opened = journal::open_map_file(path, journal::Access::read);
   ordered_json line{{"name", name}, {"seq", nullptr}, {"bytes", file_bytes(path)}};
-  if (opened) {
-    line["seq"] = (*opened)->last_seq();
+  if (const auto last = last_seq_of(path)) {
+    line["seq"] = *last;
     line["state"] = "sound";
   } else {
-    line["state"] = protocol::name(opened.error().code);
-    line["detail"] = opened.error().detail;
+    line["state"] = protocol::name(last.error().code);
+    line["detail"] = last.error().detail;
   }
   return line;
 }

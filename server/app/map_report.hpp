@@ -7,7 +7,7 @@
 namespace earthwork::app {
 
 /// A line a map: {"name", "seq", "bytes", "state"}; what is wrong with one is in "detail". Maps are
-/// opened, not executed: `verify` tells more.
+/// opened and their last event is read, nothing is executed: `verify` tells more.
 [[nodiscard]] int list_maps(const MapFlags& flags);
 /// {"name", "settings", "epoch", "created_ms", "seq", "hash", "events", "file_bytes",
 /// "bytes_per_event", "keyframes"} and every figure that HTTP tells.

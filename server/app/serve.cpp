@@ -12,19 +12,13 @@
 #include <future>
 #include <thread>
 
+#include "server/app/answer.hpp"
 #include "server/app/demo.hpp"
 #include "server/journal/shelf.hpp"
 #include "server/net/server.hpp"
 
 namespace earthwork::app {
 namespace {
-
-constexpr int kDone = 0, kFailed = 1, kUsage = 2;
-
-int refuse(const std::string& why) {
-  std::fprintf(stderr, "earthwork-server: %s\n", why.c_str());
-  return kUsage;
-}
 
 /// Held back from every thread started later, so that `wait_for_end` alone sees them.
 sigset_t hold_end_signals() {
@@ -90,27 +84,28 @@ int end(net::Server& server) {
 
 int serve(const ServeFlags& flags) {
   const auto listen = net::parse_listen_address(flags.listen);
-  if (!listen) return refuse("--listen: " + listen.error().detail);
+  if (!listen) return refuse(kUsage, "--listen: " + listen.error().detail);
   if (!listen->loopback() && !flags.insecure_open)
-    return refuse("--listen: " + flags.listen +
-                  " is reachable from other machines, and anybody there could paint and delete "
-                  "maps; --insecure-open allows it");
+    return refuse(kUsage,
+                  "--listen: " + flags.listen +
+                      " is reachable from other machines, and anybody there could paint and delete "
+                      "maps; --insecure-open allows it");
 
   const sigset_t signals = hold_end_signals();
   allow_many_connections();
   const auto shelf = take_shelf(flags);
-  if (!shelf) return refuse("--data: " + shelf.error().detail);
+  if (!shelf) return refuse(kUsage, "--data: " + shelf.error().detail);
   auto server = net::Server::start({.listen = *listen,
                                     .allowed_hosts = flags.allow_hosts,
                                     .limits = {},
                                     .shelf = *shelf,
                                     .idle = std::chrono::seconds(flags.idle_seconds)});
-  if (!server) return refuse(server.error().detail);
+  if (!server) return refuse(kUsage, server.error().detail);
   if (flags.demo) {
     std::promise<protocol::Result<void>> added;
     add_demo((*server)->atlas(), [&](const auto& result) { added.set_value(result); });
     if (const auto result = added.get_future().get(); !result)
-      return refuse("--demo: " + result.error().detail);
+      return refuse(kUsage, "--demo: " + result.error().detail);
   }
 
   say_where_maps_are(flags);

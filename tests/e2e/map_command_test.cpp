@@ -377,6 +377,10 @@ TEST_F(MapCommand, MissesTheEventsOfAWriteAheadFileThatIsGone) {
   for (const char* part : {"", "-tip"})
     std::filesystem::copy_file(file("open") + part, file("ten") + part,
                                std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::remove(file("open"));
+  const json listed = done({"list"});
+  EXPECT_EQ(listed["state"], "damaged");
+  EXPECT_EQ(listed["seq"], nullptr);
   const Outcome verified = map({"verify", "ten"});
   EXPECT_EQ(verified.exit_code, 1);
   EXPECT_LT(report(verified)["events"], 10);
