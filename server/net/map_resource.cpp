@@ -51,6 +51,7 @@ void answer_later(Workers& workers, Given give, std::function<HttpResponse()> ma
 void with_meshes(const RoomPointer& room, Given give, std::function<void(Room&)> then,
                  std::size_t budget_chunks = 64) {
   auto piece = [room, give, then = std::move(then), budget_chunks] {
+    if (room->closed()) return give(std::nullopt);
     if (room->refresh_meshes(budget_chunks))
       then(*room);
     else  // the meshes of what viewers wait for come first

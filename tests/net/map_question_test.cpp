@@ -146,6 +146,20 @@ TEST_F(MapQuestionTest, AsksTheNextRoomWhenOneHasClosed) {
   EXPECT_EQ(shelf->maps.at("a").opened, 2);
 }
 
+TEST_F(MapQuestionTest, ARoomThatHasClosedAnswersForItsMapNoMore) {
+  enter();
+  paint();
+  shelf->maps.at("a").unwritable = {Code::damaged, "a sum is wrong", {}};
+  paint();  // its map has an event that its journal has not
+  ASSERT_TRUE(room->closed());
+  shelf->maps.at("a").unwritable.reset();
+  room.reset();
+  for (const char* part : {"figures", "states.png", "export.glb"}) {
+    EXPECT_EQ(ask("GET", "/api/maps/a/" + std::string(part)).status, 200) << part;
+    EXPECT_EQ(shelf->maps.at("a").opened, 2) << part;
+  }
+}
+
 TEST_F(MapQuestionTest, EndsWhenNothingIsEverKept) {
   int asked = 0;
   std::optional<HttpResponse> answer;
