@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -292,26 +293,41 @@ TEST_F(MapFile, IsNotWrittenOnceItWasTakenAway) {
   EXPECT_EQ(replaced.error().code, Code::damaged);
 }
 
+/// Some 40 KB an event.
+void write_long_strokes(Journal& journal, SampleLog& log, std::size_t count) {
+  const std::uint64_t expected = log.last_seq();
+  auto batch = log.more(count);
+  for (auto& event : batch) {
+    event.edit.is_path = true;
+    event.edit.path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
+  }
+  ASSERT_TRUE(journal.append(expected, batch));
+}
+
+TEST_F(MapFile, KeepsItsWriteAheadFileShortWhileItIsReadAndWritten) {
+  const auto journal = create();
+  std::uintmax_t longest = 0;
+  for (int i = 0; i < 30; ++i) {
+    write_long_strokes(*journal, log, 30);
+    EXPECT_FALSE(journal->events(log.last_seq() - 20, 1 << 20).value().empty());
+    if (i % 10 == 9) log.put_keyframe(*journal);
+    longest = std::max(longest, std::filesystem::file_size(path.string() + "-wal"));
+  }
+  EXPECT_GT(std::filesystem::file_size(path), std::uintmax_t{20} << 20);
+  EXPECT_LT(longest, std::uintmax_t{8} << 20);
+}
+
 TEST_F(MapFile, ShrinksItsWriteAheadFileOnceALongReaderIsGone) {
   const auto journal = create();
-  const auto write = [&](std::size_t events) {
-    const std::uint64_t expected = log.last_seq();
-    auto batch = log.more(events);
-    for (auto& event : batch) {
-      event.edit.is_path = true;
-      event.edit.path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
-    }
-    ASSERT_TRUE(journal->append(expected, batch));
-  };
   const auto wal_bytes = [&] { return std::filesystem::file_size(path.string() + "-wal"); };
   {
     Shell reader(path);
     reader.run("BEGIN; SELECT count(*) FROM events");
-    for (int i = 0; i < 4; ++i) write(100);
-    EXPECT_GT(wal_bytes(), std::size_t{10} << 20);
+    for (int i = 0; i < 4; ++i) write_long_strokes(*journal, log, 100);
+    EXPECT_GT(wal_bytes(), std::uintmax_t{10} << 20);
   }
-  for (int i = 0; i < 3; ++i) write(1);
-  EXPECT_LE(wal_bytes(), std::size_t{9} << 20);
+  for (int i = 0; i < 3; ++i) write_long_strokes(*journal, log, 1);
+  EXPECT_LE(wal_bytes(), std::uintmax_t{9} << 20);
 }
 
 TEST_F(MapFile, WithAnotherSchemaIsRefusedAndNothingOfItRuns) {
