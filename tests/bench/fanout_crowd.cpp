@@ -149,9 +149,8 @@ std::unique_ptr<CrowdSocket> join_as_viewer(std::uint16_t port) {
   auto socket = std::make_unique<CrowdSocket>(port);
   socket->upgrade(port);
   for (const char* text : {kHello, kJoin, kView}) socket->say(text);
-  std::uint64_t texts = 1;
-  do socket->wait_for_texts(texts++);
-  while (socket->stream().last_text().find("caught_up") == std::string::npos);
+  for (std::uint64_t texts = 1; !socket->stream().caught_up(); ++texts)
+    socket->wait_for_texts(texts);
   return socket;
 }
 

@@ -93,7 +93,7 @@ void StreamCounter::end_message() {
   in_body_ = false;
   if (opcode_ == kText) {
     ++counts_.texts;
-    last_text_ = std::exchange(text_, {});
+    caught_up_ |= std::exchange(text_, {}).find(R"("type":"caught_up")") != std::string::npos;
   } else if (opcode_ == kPing) {
     ++counts_.pings;
   } else if (opcode_ == kBinary) {

@@ -28,8 +28,8 @@ class StreamCounter {
   /// of this project sends: fragments, masked messages, unknown kinds.
   void feed(std::span<const unsigned char> bytes);
   [[nodiscard]] const StreamCounts& counts() const { return counts_; }
-  /// Of the last complete text message.
-  [[nodiscard]] const std::string& last_text() const { return last_text_; }
+  /// A text message has said so; others may have followed it.
+  [[nodiscard]] bool caught_up() const { return caught_up_; }
 
  private:
   std::size_t header_size() const;
@@ -50,7 +50,8 @@ class StreamCounter {
   std::size_t length_filled_ = 0;
   std::uint64_t record_left_ = 0;
   std::uint64_t records_before_group_ = 0;
-  std::string text_, last_text_;
+  std::string text_;
+  bool caught_up_ = false;
 };
 
 }  // namespace earthwork::bench
