@@ -136,10 +136,13 @@ class IdFinder {
 
 }  // namespace
 
+// The library takes a NUL for the end of the text; JSON has none anywhere.
 Result<json> parse_json(std::string_view text, std::size_t max_bytes) {
   if (text.size() > max_bytes)
     return fail(Code::too_large, std::to_string(text.size()) + " bytes are beyond the limit of " +
                                      std::to_string(max_bytes));
+  if (const auto nul = text.find('\0'); nul != text.npos)
+    return fail(Code::bad_json, "not JSON from byte " + std::to_string(nul + 1) + " on");
   TreeBuilder builder;
   if (!json::sax_parse(text.begin(), text.end(), &builder))
     return tl::unexpected<Failure>(builder.take_failure());

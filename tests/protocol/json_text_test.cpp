@@ -60,6 +60,7 @@ TEST(JsonText, RefusesWhatIsNotJson) {
                            "Infinity", "1 2", "\"a", "[1]]", "\"\n\"", "\"\\ud800\""})
     EXPECT_EQ(code_of(text), Code::bad_json) << text;
   EXPECT_EQ(parse_json("[1,x]", 9).error().detail, "not JSON from byte 4 on");
+  EXPECT_EQ(parse_json({"{}\0{{{", 6}, 9).error().detail, "not JSON from byte 3 on");
 }
 
 TEST(JsonText, RefusesBrokenUtf8) {
