@@ -34,10 +34,21 @@ std::string holder(int lock) {
   return pid.empty() ? "of an unknown number" : pid;
 }
 
+constexpr int kNoLock = -1;
+
+bool may_only_read(int error) { return error == EROFS || error == EACCES || error == EPERM; }
+
 /// The locked file; it stays in the folder when the lock is let go, so that all lock the same one.
+/// kNoLock where none is needed, for nothing can be written.
 Result<int> take_lock(const fs::path& folder) {
   const fs::path path = folder / "lock";
-  const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+  constexpr int kFlags = O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK;
+  int lock = ::open(path.c_str(), O_RDWR | O_CREAT | kFlags, 0644);
+  if (lock < 0 && may_only_read(errno)) {
+    // A snapshot, say: it can be locked all the same. Without the file nobody has written there.
+    lock = ::open(path.c_str(), O_RDONLY | kFlags);
+    if (lock < 0 && errno == ENOENT) return kNoLock;
+  }
   if (lock < 0) return tl::unexpected<Failure>(system_failure(errno, path.string()));
   if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;
@@ -100,7 +111,9 @@ Result<std::unique_ptr<DataDirectory>> DataDirectory::open(const fs::path& folde
   return directory;
 }
 
-DataDirectory::~DataDirectory() { ::close(lock_); }
+DataDirectory::~DataDirectory() {
+  if (lock_ != kNoLock) ::close(lock_);
+}
 
 fs::path DataDirectory::map_file(std::string_view name) const {
   return folder_ / (std::string(name) + kMapFileSuffix);

@@ -17,7 +17,8 @@ class DataDirectory {
  public:
   enum class Missing { create, refuse };
   /// Fails with bad_state when another process has it, naming its pid; with unknown_map when it is
-  /// missing and is not to be created; with disk_full, read_only or storage_failed.
+  /// missing and is not to be created; with disk_full, read_only or storage_failed. Where nothing
+  /// may be written, on a snapshot say, it can be read: under the lock if there is one.
   [[nodiscard]] static protocol::Result<std::unique_ptr<DataDirectory>> open(
       const std::filesystem::path& folder, Missing missing);
   ~DataDirectory();
