@@ -88,8 +88,8 @@ void tell_what_is_left(const StoredMap& stored, const journal::Audit& audit) {
   const std::uint64_t last = stored.journal->last_seq();
   if (audit.events == last) return;
   if (const auto end = journal::restore(*stored.journal, last, journal::Trust::salvage))
-    warn(command + " still gives seq " + std::to_string(last) + ", from keyframe " +
-         std::to_string(end->keyframe_seq) + " on");
+    warn(command + ".glb, or .png, still gives the map of seq " + std::to_string(last) +
+         ", from keyframe " + std::to_string(end->keyframe_seq) + " on");
 }
 
 int answer_audit(const std::string& name, const journal::Audit& audit) {

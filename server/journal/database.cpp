@@ -1,8 +1,10 @@
 #include "server/journal/database.hpp"
 
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <system_error>
 #include <utility>
 
 #include "server/journal/damage.hpp"
@@ -71,6 +73,17 @@ std::string escaped(const std::string& path) {
   return out;
 }
 
+/// Asked first, for SQLite opens for reading what it may not write, and says nothing.
+Result<void> may_write(const std::filesystem::path& file, const std::string& name) {
+  for (const auto& path : {file, file.parent_path()})
+    if (::access(path.c_str(), W_OK) != 0) {
+      const int error = errno;
+      return protocol::fail(code_of_errno(error),
+                            name + ": " + std::generic_category().message(error));
+    }
+  return {};
+}
+
 bool has_log(const std::filesystem::path& path) {
   std::error_code none;
   const auto size = std::filesystem::file_size(path.string() + "-wal", none);
@@ -90,12 +103,15 @@ Result<Database> Database::open(const std::filesystem::path& path, std::string n
       std::filesystem::canonical(path.has_parent_path() ? path.parent_path() : ".", error);
   if (error) return protocol::fail(code_of_errno(error.value()), name + ": " + error.message());
   const std::filesystem::path file = folder / path.filename();
+  if (mode == Mode::write)
+    if (auto may = may_write(file, name); !may) return tl::unexpected<Failure>(may.error());
   std::string target = file.string();
+  const Left left = has_log(file) ? Left::log : Left::nothing;
   int flags = SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
   const char* system = nullptr;
   if (mode == Mode::read) {
     flags |= SQLITE_OPEN_READONLY;
-    if (has_log(file)) {
+    if (left == Left::log) {
       system = "unix-none";
     } else {
       flags |= SQLITE_OPEN_URI;
@@ -108,12 +124,14 @@ Result<Database> Database::open(const std::filesystem::path& path, std::string n
   const int result = sqlite3_open_v2(target.c_str(), &handle, flags, system);
   Database database(handle, std::move(name));
   if (result != SQLITE_OK) return tl::unexpected<Failure>(database.failure(result));
-  if (auto configured = database.configure(mode); !configured)
+  if (auto configured = database.configure(mode, left); !configured)
     return tl::unexpected<Failure>(std::move(configured.error()));
   return database;
 }
 
-Result<void> Database::configure(Mode mode) {
+// What a crash has left may be all there is of a damaged map: it stays as it is until the map is
+// written to.
+Result<void> Database::configure(Mode mode, Left left) {
   sqlite3* db = handle();
   sqlite3_limit(db, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
   sqlite3_limit(db, SQLITE_LIMIT_ATTACHED, 1);
@@ -122,8 +140,8 @@ Result<void> Database::configure(Mode mode) {
   sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   sqlite3_busy_timeout(db, kBusyTimeoutMs);
+  if (left == Left::log) sqlite3_db_config(db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   if (mode == Mode::read) {
-    sqlite3_db_config(db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     return execute("PRAGMA locking_mode=EXCLUSIVE; PRAGMA cell_size_check=ON");
   }
   if (mode == Mode::build) return execute("PRAGMA synchronous=OFF");
@@ -131,6 +149,10 @@ Result<void> Database::configure(Mode mode) {
   return execute(
       "PRAGMA cell_size_check=ON; PRAGMA synchronous=FULL;"
       "PRAGMA mmap_size=0; PRAGMA journal_size_limit=8388608");
+}
+
+void Database::checkpoint_when_closed() {
+  sqlite3_db_config(handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
 }
 
 Result<void> Database::execute(const char* sql) {

@@ -51,6 +51,9 @@ class Database {
 
   /// Writes go to a write-ahead file from now on, and the file says so.
   [[nodiscard]] protocol::Result<void> use_log() { return execute("PRAGMA journal_mode=WAL"); }
+  /// A write-ahead file that was there before is brought into the file and removed at the end of
+  /// the connection, as one is that the connection began; otherwise it stays as it is.
+  void checkpoint_when_closed();
   /// Whether the file is not at its path any more.
   [[nodiscard]] bool moved() const;
 
@@ -65,7 +68,9 @@ class Database {
     void operator()(sqlite3* handle) const;
   };
   Database(sqlite3* handle, std::string name) : handle_(handle), name_(std::move(name)) {}
-  [[nodiscard]] protocol::Result<void> configure(Mode mode);
+  /// What lay beside the file when it was opened.
+  enum class Left { nothing, log };
+  [[nodiscard]] protocol::Result<void> configure(Mode mode, Left left);
 
   std::unique_ptr<sqlite3, Close> handle_;
   std::string name_;

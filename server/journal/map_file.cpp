@@ -108,7 +108,9 @@ class MapFile final : public Journal {
   Identity identity_;
   bool known_ = false;  // identity_ has been read
   std::optional<Database> database_;
-  bool writing_ = false;  // database_ can be written to, and nothing about it is in doubt
+  bool writing_ = false;   // database_ can be written to, and nothing about it is in doubt
+  bool in_doubt_ = false;  // what became of the last write is not known
+  bool wrote_ = false;     // since it was opened
   LogEnd end_;
   std::optional<TipFile> tip_;
   MapTidying tidying_;
@@ -138,6 +140,7 @@ Result<void> MapFile::connect(Database::Mode mode) {
   known_ = true;
   end_ = end.value_or(LogEnd{.promised = *tip ? (*tip)->seq : 0});
   database_.emplace(std::move(*database));
+  if (wrote_) database_->checkpoint_when_closed();
   writing_ = mode == Database::Mode::write;
   return {};
 }
@@ -169,19 +172,22 @@ Result<void> MapFile::to_read() {
 /// After a failure in writing: when what became of it is not known, only reading the file anew
 /// tells. Where even that fails the next call begins with it.
 Failure MapFile::look_again(Failure failure) {
+  // Where nothing might be written SQLite has opened it for reading: the next call asks again.
+  if (failure.code == Code::read_only) writing_ = false;
   if (!database_->doubtful()) return failure;
-  if (connect(Database::Mode::write) &&
-      database_->execute("PRAGMA wal_checkpoint(TRUNCATE)").has_value())
-    return failure;
-  writing_ = false;
+  in_doubt_ = !connect(Database::Mode::write) ||
+              !database_->execute("PRAGMA wal_checkpoint(TRUNCATE)").has_value();
+  if (in_doubt_) writing_ = false;
   return failure;
 }
 
 // Only events must be durable at once: states are made again from them, and are synced with the
 // next batch.
 Result<void> MapFile::write(Durable durable, const std::function<Result<void>()>& work) {
+  in_doubt_ = false;
   auto done = database_->transact(durable, work);
   if (!done) return tl::unexpected<Failure>(look_again(std::move(done.error())));
+  if (!std::exchange(wrote_, true)) database_->checkpoint_when_closed();
   return done;
 }
 
@@ -207,6 +213,10 @@ Result<void> MapFile::append(std::uint64_t expected_seq, std::span<const Event> 
     return fail(Code::bad_state, name_ + ": the last event is " + std::to_string(end_.seq) +
                                      ", not " + std::to_string(expected_seq));
   if (!tip_) {
+    // What a crash has left beside the file may never have reached the disk.
+    if (auto left = database_->execute("PRAGMA wal_checkpoint(PASSIVE)");
+        !left && left.error().code != Code::disk_full)
+      return left;
     auto tip = TipFile::open(tip_path(path_), {.seq = end_.seq, .hash = end_.hash});
     if (!tip) return tl::unexpected<Failure>(std::move(tip.error()));
     tip_.emplace(std::move(*tip));
@@ -216,6 +226,9 @@ Result<void> MapFile::append(std::uint64_t expected_seq, std::span<const Event> 
   auto done = write(Durable::now, [&] { return append_batch(*database_, expected_seq, events); });
   const bool there_after_all =
       !done && writing_ && end_.seq == after.seq && end_.hash == after.hash;
+  if (!done && in_doubt_)
+    return fail(Code::bad_state, name_ + ": whether the events up to " + std::to_string(after.seq) +
+                                     " are stored is not known: " + done.error().detail);
   if (!done && !there_after_all) return done;
   end_ = after;
   witness();

@@ -60,7 +60,8 @@ Result<std::optional<Tip>> read_tip(const std::filesystem::path& path) {
   const Tip tip{words[0], words[1]};
   if (whole && words == words_of(tip)) return tip;
   return damage(path.filename().string(), {}, 0,
-                "not a tip, so nobody knows whether the log is whole");
+                "not a tip, so nobody knows whether the log is whole; who removes it takes the log "
+                "as it is");
 }
 
 Result<TipFile> TipFile::open(const std::filesystem::path& path, const Tip& tip) {

@@ -34,6 +34,11 @@ class SmallDisk {
   }
   [[nodiscard]] bool mounted() const { return mounted_; }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  /// Whether it could be done.
+  bool make_read_only(bool read_only) {
+    const unsigned long flags = MS_REMOUNT | (read_only ? MS_RDONLY : 0);
+    return ::mount("tmpfs", path_.c_str(), "tmpfs", flags, nullptr) == 0;
+  }
 
  private:
   Folder folder_;
@@ -63,6 +68,15 @@ class Disk : public testing::Test {
     std::ofstream(script) << circles(count, seed);
     return bot({"run", script, "--server", server.url(), "--map", map, "--create"});
   }
+  /// One edit more is taken, after a minute at the latest.
+  bool paints_in_the_end(const ServerProgram& server, const std::string& map) {
+    const auto give_up = std::chrono::steady_clock::now() + 60s;
+    while (paint(server, map, 1, 2).exit_code != 0) {
+      if (std::chrono::steady_clock::now() > give_up) return false;
+      std::this_thread::sleep_for(100ms);
+    }
+    return true;
+  }
   static Outcome verify(const std::string& data, const std::string& map) {
     return Program("earthwork-server", {"map", "verify", map, "--data", data}).wait();
   }
@@ -91,13 +105,7 @@ TEST_F(Disk, ThatIsFullRefusesEditsIsReadAndTakesThemAgain) {
     EXPECT_EQ(report(watched)["mesh_hash"], figures(server, "m")["mesh_hash"]);
 
     fs::remove(disk / "ballast");
-    const auto give_up = std::chrono::steady_clock::now() + 60s;
-    Outcome again = paint(server, "m", 1, 2);
-    while (again.exit_code != 0 && std::chrono::steady_clock::now() < give_up) {
-      std::this_thread::sleep_for(100ms);
-      again = paint(server, "m", 1, 2);
-    }
-    ASSERT_EQ(again.exit_code, 0) << again.err;
+    ASSERT_TRUE(paints_in_the_end(server, "m"));
     EXPECT_EQ(paint(server, "m", 100, 3).exit_code, 0);
     acked += 101;
     EXPECT_EQ(figures(server, "m")["seq"], acked);
@@ -107,6 +115,29 @@ TEST_F(Disk, ThatIsFullRefusesEditsIsReadAndTakesThemAgain) {
   EXPECT_EQ(verified.exit_code, 0) << verified.err;
   EXPECT_EQ(report(verified)["events"], acked);
   EXPECT_EQ(report(verified)["hash"], hash);
+}
+
+TEST_F(Disk, ThatMayOnlyBeReadIsReadAndTakesEditsAgainAfterwards) {
+  SmallDisk disk(3000);
+  if (!disk.mounted()) GTEST_SKIP() << "mounting is not allowed here";
+  const std::string data = disk / "data";
+  {
+    const ServerProgram server({.data = data});
+    ASSERT_EQ(paint(server, "m", 50, 8).exit_code, 0);
+  }
+  ASSERT_TRUE(disk.make_read_only(true));
+  EXPECT_EQ(verify(data, "m").exit_code, 0) << verify(data, "m").err;
+
+  const ServerProgram server({.data = data});
+  EXPECT_EQ(figures(server, "m")["seq"], 50);
+  const Outcome refused = paint(server, "m", 3, 9);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("read_only"), std::string::npos) << refused.err;
+  EXPECT_EQ(figures(server, "m")["seq"], 50);
+
+  ASSERT_TRUE(disk.make_read_only(false));
+  EXPECT_TRUE(paints_in_the_end(server, "m"));
+  EXPECT_EQ(figures(server, "m")["seq"], 51);
 }
 
 TEST_F(Disk, ThatChangedAByteIsFoundOutOrDidNoHarm) {

@@ -300,7 +300,7 @@ TEST_F(MapCommand, NamesADamagedEventAndGivesWhatIsBeforeIt) {
   for (const char* part : {"ten.earthwork: ", "batches: ", "seq 7"})
     EXPECT_TRUE(contains(found["findings"][0], part)) << found["findings"][0];
   EXPECT_TRUE(contains(verified.err, "the log is good up to seq 6: map export ten OUT --seq 6"));
-  EXPECT_TRUE(contains(verified.err, "still gives seq 10, from keyframe 8 on"));
+  EXPECT_TRUE(contains(verified.err, "still gives the map of seq 10, from keyframe 8 on"));
 
   for (const char* name : {"six.glb", "six.png", "six.jsonl"})
     EXPECT_EQ(done({"export", "ten", folder_ / name, "--seq", "6"})["hash"],

@@ -140,8 +140,9 @@ TEST(MapFileDamage, WhatAKillLeavesIsWhole) {
   for (const Access access : {Access::read, Access::write}) {
     remains.lay(path);
     EXPECT_FALSE(found_out(path, written, access, "a kill"));
-    EXPECT_EQ(std::filesystem::exists(path.string() + "-wal"), access == Access::read);
-    EXPECT_EQ(std::filesystem::exists(path.string() + "-tip"), access == Access::read);
+    EXPECT_EQ(read_bytes(path), remains.file);
+    EXPECT_EQ(read_bytes(path.string() + "-wal"), remains.wal);
+    EXPECT_TRUE(std::filesystem::exists(path.string() + "-tip"));
   }
   remains.lay(path);
   ASSERT_TRUE(open_map_file(path, Access::read));
