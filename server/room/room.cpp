@@ -1,5 +1,7 @@
 #include "server/room/room.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <cassert>
 #include <string>
 #include <utility>
@@ -265,6 +267,9 @@ void Room::settle() {
 }
 
 void Room::take_back(const protocol::Failure& failure) {
+  // Not more often than the ledger tries.
+  spdlog::error("map {}: edits could not be stored: {}: {}", name_, protocol::name(failure.code),
+                failure.detail);
   if (commits_ == Commits::at_once || !may_pass(failure.code))
     return close({.failure = failure, .retry_after_ms = kReopenMs});
   seats_.refuse_answers(ledger_.durable().seq, failure);
