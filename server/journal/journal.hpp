@@ -77,8 +77,8 @@ class Journal {
   [[nodiscard]] virtual std::uint64_t last_seq() const = 0;
 
   /// Adds events, one or more, numbered without a gap from `expected_seq` + 1 on: all or none. When
-  /// it succeeds they are durable. Fails with bad_state when the last seq is not `expected_seq`, for
-  /// somebody else has written; or when nobody can tell now whether the events are there. The
+  /// it succeeds they are durable. Fails with bad_state when the last seq is not `expected_seq`,
+  /// for somebody else has written; or when nobody can tell now whether the events are there. The
   /// caller must not go on then, nor say what became of them: the journal tells that once it was
   /// opened again.
   [[nodiscard]] virtual protocol::Result<void> append(std::uint64_t expected_seq,
