@@ -145,14 +145,16 @@ Result<void> MapFile::connect(Database::Mode mode) {
   return {};
 }
 
-// Without room, or where nothing may be written, a map can still be looked at.
+// Without room, or where nothing may be written, a map can still be looked at. A log that is
+// damaged far back is found here, and not by whoever reads the past some day.
 Result<void> MapFile::open() {
   if (access_ == Access::read) return connect(Database::Mode::read);
-  auto connected = connect(Database::Mode::write);
-  if (connected) return connected;
-  const Code code = connected.error().code;
-  if (code != Code::disk_full && code != Code::read_only) return connected;
-  return connect(Database::Mode::read);
+  auto opened = connect(Database::Mode::write);
+  if (!opened && (opened.error().code == Code::disk_full || opened.error().code == Code::read_only))
+    opened = connect(Database::Mode::read);
+  if (opened) opened = check_log(*database_, end_.seq);
+  if (!opened) writing_ = false;
+  return opened;
 }
 
 Result<void> MapFile::to_write() {

@@ -66,7 +66,8 @@ inline constexpr const char* kMapFileSuffix = ".earthwork";
     const std::filesystem::path& path, const Identity& identity);
 
 enum class Access {
-  /// What has lost its end is not opened. Without room, or where nothing may be written, it is
+  /// All of the log is read and compared with its sums, about a second for a million events: what
+  /// is damaged anywhere, or has lost its end, is not opened. Without room, or where nothing may be written, it is
   /// opened all the same; writing then fails until it can be done. Appending fails with `damaged`
   /// once the file was taken away, or another one put in its place.
   write,

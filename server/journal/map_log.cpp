@@ -97,6 +97,12 @@ class EventRows {
   std::uint64_t next_;
 };
 
+/// A row of all columns of batches; one without events when it is none of ours.
+BatchRow batch_of(const Statement& row) {
+  if (!row.row_is("iii")) return {};
+  return {.first = row.number(0), .last = row.number(1), .sum = row.number(2)};
+}
+
 /// The batch that holds `seq`.
 Result<BatchRow> find_batch(const Database& database, std::uint64_t seq) {
   Statement find(database, "batches",
@@ -104,10 +110,7 @@ Result<BatchRow> find_batch(const Database& database, std::uint64_t seq) {
                  "ORDER BY first_seq DESC LIMIT 1");
   const auto row = find.begin(seq).next();
   if (!row) return tl::unexpected<Failure>(row.error());
-  const BatchRow batch =
-      *row && find.row_is("iii")
-          ? BatchRow{.first = find.number(0), .last = find.number(1), .sum = find.number(2)}
-          : BatchRow{};
+  const BatchRow batch = *row ? batch_of(find) : BatchRow{};
   if (batch.first == 0 || batch.first > seq || batch.last < seq)
     return database.damaged("batches", seq, "no batch holds it");
   return batch;
@@ -222,6 +225,24 @@ Result<std::vector<Event>> read_log(Database& database, std::uint64_t from_seq,
     if (page.events.empty()) return tl::unexpected<Failure>(std::move(read.error()));
     return std::move(page.events);
   }
+}
+
+Result<void> check_log(Database& database, std::uint64_t last) {
+  Statement batches(database, "batches",
+                    "SELECT first_seq, last_seq, sum FROM batches ORDER BY first_seq");
+  batches.begin();
+  EventRows rows(database, 1);
+  Page nothing{.full = true, .events = {}};
+  for (std::uint64_t next = 1; next <= last;) {
+    const auto row = batches.next();
+    if (!row) return tl::unexpected<Failure>(row.error());
+    const BatchRow batch = *row ? batch_of(batches) : BatchRow{};
+    if (batch.first != next || batch.last < next || batch.last > last)
+      return database.damaged("batches", next, "no batch begins with it");
+    if (auto read = read_batch(database, batch, rows, nothing); !read) return read;
+    next = batch.last + 1;
+  }
+  return {};
 }
 
 Result<void> cut_log(Database& database, std::uint64_t seq) {

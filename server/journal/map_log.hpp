@@ -31,6 +31,10 @@ namespace earthwork::journal {
                                                                      std::uint64_t from_seq,
                                                                      std::size_t most_bytes);
 
+/// That events 1 to `last` are all there, in batches whose sums are right. What the commands say is
+/// not looked at.
+[[nodiscard]] protocol::Result<void> check_log(Database& database, std::uint64_t last);
+
 /// Removes all events after `seq`, within a transaction; what is left of a batch becomes one.
 [[nodiscard]] protocol::Result<void> cut_log(Database& database, std::uint64_t seq);
 

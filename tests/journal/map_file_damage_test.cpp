@@ -225,7 +225,7 @@ TEST(MapFileDamage, ATipThatIsNoneIsNamed) {
   EXPECT_TRUE(open_map_file(path, Access::write)) << "who removes it goes on with what is there";
 }
 
-TEST(MapFileDamage, DamageBehindSoundBatchesIsLeftToWhoeverReadsIt) {
+TEST(MapFileDamage, DamageFarBackIsNotServedAndWhatIsSoundCanBeRead) {
   TemporaryFolder folder;
   const auto path = folder / "map.earthwork";
   {
@@ -234,16 +234,23 @@ TEST(MapFileDamage, DamageBehindSoundBatchesIsLeftToWhoeverReadsIt) {
     log.write(*journal, {3, 9, 2, 4});
   }
   change(path, "UPDATE events SET hash = hash + 1 WHERE seq = 14");
-  const auto journal = open_map_file(path, Access::write).value();
+  const std::string sum_of_13 =
+      path.filename().string() + ": batches: seq 13: the sum of events up to 14 is another";
+  const std::string bytes = read_bytes(path);
+  const auto refused = open_map_file(path, Access::write);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::damaged);
+  EXPECT_EQ(refused.error().detail, sum_of_13);
+  EXPECT_EQ(read_bytes(path), bytes);
+
+  const auto journal = open_map_file(path, Access::read).value();
   EXPECT_EQ(journal->events(1, 1 << 20).value().size(), 12u);
   EXPECT_EQ(journal->events(15, 1 << 20).value().size(), 4u);
   for (const std::uint64_t from : {13u, 14u}) {
     const auto damaged = journal->events(from, 1 << 20);
     ASSERT_FALSE(damaged);
     EXPECT_EQ(damaged.error().code, Code::damaged);
-    EXPECT_EQ(
-        damaged.error().detail,
-        path.filename().string() + ": batches: seq 13: the sum of events up to 14 is another");
+    EXPECT_EQ(damaged.error().detail, sum_of_13);
   }
 }
 
