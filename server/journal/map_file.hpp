@@ -67,9 +67,9 @@ inline constexpr const char* kMapFileSuffix = ".earthwork";
 
 enum class Access {
   /// All of the log is read and compared with its sums, about a second for a million events: what
-  /// is damaged anywhere, or has lost its end, is not opened. Without room, or where nothing may be written, it is
-  /// opened all the same; writing then fails until it can be done. Appending fails with `damaged`
-  /// once the file was taken away, or another one put in its place.
+  /// is damaged anywhere, or has lost its end, is not opened. Without room, or where nothing may be
+  /// written, it is opened all the same; writing then fails until it can be done. Appending fails
+  /// with `damaged` once the file was taken away, or another one put in its place.
   write,
   /// Changes nothing, not even what a crash has left beside the file. A log that has lost its end
   /// is opened: last_seq() is the last that there was, as far as anything tells, and reading what
