@@ -39,9 +39,10 @@ void Publisher::leave(ViewerId id) { shows_.erase(id); }
 
 protocol::Result<void> Publisher::look(ViewerId id, const protocol::View& view) {
   if (auto checked = protocol::check_view(view, settings_); !checked) return checked;
-  if (!view.rect && meshes_.count() > protocol::kMaxViewChunks)
+  const std::size_t chunks = view.rect ? 0 : chunks_to_show();
+  if (chunks > protocol::kMaxViewChunks)
     return protocol::fail(protocol::Code::too_large,
-                          "all: the map has " + std::to_string(meshes_.count()) +
+                          "all: the map has " + std::to_string(chunks) +
                               " chunks, beyond a view's limit of " +
                               std::to_string(protocol::kMaxViewChunks),
                           "all");
@@ -52,6 +53,13 @@ protocol::Result<void> Publisher::look(ViewerId id, const protocol::View& view) 
     publish_soon();
   }
   return {};
+}
+
+std::size_t Publisher::chunks_to_show() const {
+  const auto others = std::count_if(pending_.begin(), pending_.end(), [this](const auto& key) {
+    return !meshes_.may_have_mesh(key);
+  });
+  return meshes_.count() + static_cast<std::size_t>(others);
 }
 
 /// Gives back how many chunks are to be loaded for it.

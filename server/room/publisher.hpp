@@ -122,6 +122,8 @@ class Publisher {
   [[nodiscard]] bool held() const { return round_ || latest_ != seq_; }
   void rest();
   void take_in_pending();
+  /// How many chunks the map has or may have meshes of, those included that are not taken in yet.
+  [[nodiscard]] std::size_t chunks_to_show() const;
   [[nodiscard]] bool plans_for(const Show& show) const;
   [[nodiscard]] RoundPlan plan_for_all();
   void make(const std::vector<voxel::ChunkKey>& keys);
