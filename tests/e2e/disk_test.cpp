@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "client/link/http_client.hpp"
+#include "tests/e2e/scripts.hpp"
 #include "tests/e2e/server_answers.hpp"
 
 namespace earthwork::e2e {
@@ -46,26 +47,11 @@ class SmallDisk {
   bool mounted_ = false;
 };
 
-std::string circles(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_int_distribution<int> place(-3200, 3200), radius(16, 96);
-  std::string out;
-  for (int i = 0; i < count; ++i)
-    out += json{{"stencil", "circle"},
-                {"fill", i % 3 != 2},
-                {"x", place(random) / 16.0},
-                {"y", place(random) / 16.0},
-                {"radius", radius(random) / 16.0}}
-               .dump() +
-           "\n";
-  return out;
-}
-
 class Disk : public testing::Test {
  protected:
   Outcome paint(const ServerProgram& server, const std::string& map, int count, unsigned seed) {
     const std::string script = folder_ / "script.jsonl";
-    std::ofstream(script) << circles(count, seed);
+    std::ofstream(script) << circles(count, 200, seed);
     return bot({"run", script, "--server", server.url(), "--map", map, "--create"});
   }
   /// One edit more is taken, after a minute at the latest.

@@ -7,30 +7,13 @@
 #include <random>
 
 #include "tests/e2e/relay.hpp"
+#include "tests/e2e/scripts.hpp"
 #include "tests/e2e/server_answers.hpp"
 
 namespace earthwork::e2e {
 namespace {
 
 using nlohmann::json;
-
-/// Circles with their centres between -`reach` and `reach`, as a script.
-std::string circles(int count, int reach, unsigned seed) {
-  std::mt19937 random(seed);
-  const auto between = [&](int low, int high) {
-    return std::uniform_int_distribution<int>(low, high)(random);
-  };
-  std::string out;
-  for (int i = 0; i < count; ++i)
-    out += json{{"stencil", "circle"},
-                {"fill", between(0, 2) != 0},
-                {"x", between(-16 * reach, 16 * reach) / 16.0},
-                {"y", between(-16 * reach, 16 * reach) / 16.0},
-                {"radius", between(16, 64) / 16.0}}
-               .dump() +
-           "\n";
-  return out;
-}
 
 /// Cuts so many connections: each after a number of bytes drawn by lot, now and then before the
 /// map is joined. The first one lives at least for `first` bytes.
