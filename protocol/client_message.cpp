@@ -13,13 +13,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-MapRect read_rect(JsonFields& in) {
-  const auto r = in.numbers("rect", 4);
-  if (!in.failed() && !(r[0] <= r[2] && r[1] <= r[3]))
-    in.refuse(Code::out_of_range, "rect", "[x0, y0, x1, y1] needs x0 <= x1 and y0 <= y1");
-  return {r[0], r[1], r[2], r[3]};
-}
-
 Result<ClientMessage> read_hello(JsonFields& in) {
   Hello hello;
   const auto versions = in.integers("protocol", 2, {1, kMaxVersion});
@@ -50,7 +43,7 @@ Result<Have> read_have(JsonFields in) {
   Have have;
   have.epoch = in.hex_digits("epoch", kEpochDigits);
   have.seq = read_seq(in, "seq");
-  have.rect = read_rect(in);
+  have.rect = read_rect(in, "rect");
   return in.result(std::move(have));
 }
 
@@ -61,7 +54,7 @@ Result<ClientMessage> read_view(JsonFields& in) {
   if (all && in.has("rect"))
     in.refuse(Code::bad_field, "all", "does not go with rect");
   else if (!all)
-    view.rect = read_rect(in);
+    view.rect = read_rect(in, "rect");
   if (const json* have = in.has("have") ? in.value("have") : nullptr) {
     auto read = read_have(JsonFields(*have, "have"));
     if (read)
@@ -83,9 +76,27 @@ Result<ClientMessage> read_edit_message(JsonFields& in, const json& object) {
   return ClientMessage(std::move(message));
 }
 
+Result<ClientMessage> read_layer_message(JsonFields& in, const json& object) {
+  LayerMessage message;
+  message.id = read_id(in);
+  if (in.failed()) return in.result<ClientMessage>(std::move(message));
+  auto change = read_layer_change(object);
+  if (!change) return tl::unexpected<Failure>(std::move(change.error()));
+  message.change = std::move(*change);
+  return ClientMessage(std::move(message));
+}
+
 Result<ClientMessage> read_cursor(JsonFields& in) {
-  Cursor cursor{.at = read_place(in), .brush = read_brush(in), .id = read_optional_id(in)};
+  Cursor cursor{.at = read_place(in),
+                .brush = read_brush(in),
+                .view = read_seen(in),
+                .id = read_optional_id(in)};
   return in.result<ClientMessage>(cursor);
+}
+
+Result<ClientMessage> read_chat(JsonFields& in) {
+  Chat chat{.text = in.words("text", kMaxChatCharacters), .id = read_optional_id(in)};
+  return in.result<ClientMessage>(std::move(chat));
 }
 
 Result<ClientMessage> read_events(JsonFields& in) {
@@ -99,6 +110,8 @@ Result<ClientMessage> read_message(const json& object) {
   if (in.failed()) return in.result(ClientMessage{});
   if (type == "edit") return read_edit_message(in, object);
   if (type == "cursor") return read_cursor(in);
+  if (type == "layer") return read_layer_message(in, object);
+  if (type == "chat") return read_chat(in);
   if (type == "ping") return in.result<ClientMessage>(Ping{read_optional_id(in)});
   if (type == "view") return read_view(in);
   if (type == "undo") return in.result<ClientMessage>(Undo{read_id(in)});
@@ -109,8 +122,6 @@ Result<ClientMessage> read_message(const json& object) {
   if (type == "events") return read_events(in);
   return fail(Code::bad_message, "type: is no message of a client", "type");
 }
-
-ordered_json write_rect(const MapRect& rect) { return {rect.x0, rect.y0, rect.x1, rect.y1}; }
 
 /// Adds a message's fields after its type. One overload a message.
 struct Writer {
@@ -146,11 +157,21 @@ struct Writer {
     write_edit(message.edit, out);
     return "edit";
   }
+  const char* operator()(const LayerMessage& message) const {
+    with_id("layer", message.id);
+    write_layer_change(message.change, out);
+    return "layer";
+  }
+  const char* operator()(const Chat& chat) const {
+    out["text"] = chat.text;
+    return with_id("chat", chat.id);
+  }
   const char* operator()(const Undo& undo) const { return with_id("undo", undo.id); }
   const char* operator()(const Redo& redo) const { return with_id("redo", redo.id); }
   const char* operator()(const Cursor& cursor) const {
     write_place(cursor.at, out);
     write_brush(cursor.brush, out);
+    write_seen(cursor.view, out);
     return with_id("cursor", cursor.id);
   }
   const char* operator()(const Events& events) const {

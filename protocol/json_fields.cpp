@@ -118,18 +118,20 @@ std::string JsonFields::text(const char* key) {
   return {};
 }
 
-std::string JsonFields::name(const char* key) {
-  std::string name = text(key);
+std::string JsonFields::words(const char* key, std::size_t most) {
+  std::string words = text(key);
   if (failed()) return {};
-  const std::size_t characters = count_characters(name);
-  if (characters < 1 || characters > kMaxNameCharacters)
-    refuse(Code::out_of_range, key,
-           "has " + std::to_string(characters) + " characters, outside 1 .. " +
-               std::to_string(kMaxNameCharacters));
-  else if (has_control_character(name))
+  const std::size_t characters = count_characters(words);
+  if (characters < 1 || characters > most)
+    refuse(
+        Code::out_of_range, key,
+        "has " + std::to_string(characters) + " characters, outside 1 .. " + std::to_string(most));
+  else if (has_control_character(words))
     refuse(Code::bad_field, key, "holds a control character");
-  return name;
+  return words;
 }
+
+std::string JsonFields::name(const char* key) { return words(key, kMaxNameCharacters); }
 
 std::string JsonFields::color(const char* key) {
   std::string color = text(key);

@@ -41,7 +41,9 @@ class JsonFields {
   bool boolean(const char* key);
   /// As it stands, in valid UTF-8.
   std::string text(const char* key);
-  /// 1 .. 64 characters (code points), none of them a control character.
+  /// 1 .. `most` characters (code points), none of them a control character.
+  std::string words(const char* key, std::size_t most);
+  /// 1 .. 64 such characters.
   std::string name(const char* key);
   /// "#rrggbb", made lower case.
   std::string color(const char* key);

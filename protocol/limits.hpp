@@ -29,6 +29,10 @@ inline constexpr double kMaxHeight = 1e6;              ///< Of a wall's ends, ma
 inline constexpr std::size_t kMaxNameBytes = 64;       ///< Of a map.
 inline constexpr std::size_t kMaxNameCharacters = 64;  ///< Of a person or a layer.
 inline constexpr std::size_t kMaxLayers = 16;
+inline constexpr std::size_t kMaxChatCharacters = 500;  ///< Of one line.
+inline constexpr std::size_t kMaxChatLines = 8;         ///< Of one session in kChatSeconds.
+inline constexpr int kChatSeconds = 10;
+inline constexpr std::size_t kKeptChatLines = 100;  ///< Of a map, for who joins.
 
 inline constexpr std::size_t kMaxFrameBytes = 16 * 1024;     ///< A binary message.
 inline constexpr std::size_t kMaxRecordBytes = 1024 * 1024;  ///< A chunk record, across messages.

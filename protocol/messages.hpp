@@ -15,6 +15,7 @@
 #include "protocol/chunk_range.hpp"
 #include "protocol/edit.hpp"
 #include "protocol/json_text.hpp"
+#include "protocol/layer_change.hpp"
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
 
@@ -69,6 +70,18 @@ struct Redo {
   MessageId id = 0;
   friend bool operator==(const Redo&, const Redo&) = default;
 };
+/// Adds a layer or changes one; answered and remembered like an edit.
+struct LayerMessage {
+  MessageId id = 0;
+  LayerChange change;
+  friend bool operator==(const LayerMessage&, const LayerMessage&) = default;
+};
+/// Something said to all who are on the map.
+struct Chat {
+  std::string text;  ///< 1 .. kMaxChatCharacters characters, no control character.
+  std::optional<MessageId> id;
+  friend bool operator==(const Chat&, const Chat&) = default;
+};
 /// What somebody would paint with.
 struct Brush {
   StencilShape stencil = StencilShape::circle;
@@ -81,6 +94,7 @@ struct Brush {
 struct Cursor {
   std::optional<MapPoint> at;  ///< Map units; none: nowhere ("hidden": true).
   std::optional<Brush> brush;
+  std::optional<MapRect> view;  ///< The part of the map that somebody sees, for who follows.
   std::optional<MessageId> id;
   friend bool operator==(const Cursor&, const Cursor&) = default;
 };
@@ -94,8 +108,8 @@ struct Ping {
   std::optional<MessageId> id;
   friend bool operator==(const Ping&, const Ping&) = default;
 };
-using ClientMessage =
-    std::variant<Hello, Join, Leave, View, EditMessage, Undo, Redo, Cursor, Events, Ping>;
+using ClientMessage = std::variant<Hello, Join, Leave, View, EditMessage, LayerMessage, Undo, Redo,
+                                   Cursor, Chat, Events, Ping>;
 
 struct Welcome {
   std::string session;          ///< Names the session to people and logs; 16 hex digits.
@@ -145,6 +159,7 @@ struct UserCursor {
   std::string session;
   std::optional<MapPoint> at;  ///< None: it has no cursor any more.
   std::optional<Brush> brush;
+  std::optional<MapRect> view;  ///< As of Cursor.
   friend bool operator==(const UserCursor&, const UserCursor&) = default;
 };
 /// What is new among the people of a map. Written without the lists that are empty.
@@ -164,13 +179,31 @@ struct Event {
   std::string hash;          ///< Of the map after it; 16 hex digits.
   friend bool operator==(const Event&, const Event&) = default;
 };
+/// The map's settings after its layers have changed; of several changes perhaps the last one only.
+struct SettingsChanged {
+  std::uint64_t seq = 0;  ///< Of the last change that they show.
+  MapSettings settings;
+  friend bool operator==(const SettingsChanged&, const SettingsChanged&) = default;
+};
+/// What was said, by whom. Name and colour are those of then.
+struct ChatLine {
+  std::uint64_t n = 0;       ///< 1, 2, 3 ... in a map, as long as its server runs.
+  std::int64_t time_ms = 0;  ///< Since 1970, UTC.
+  std::string session, name, color, text;
+  friend bool operator==(const ChatLine&, const ChatLine&) = default;
+};
+/// New lines, in order: after a join those that are kept.
+struct ChatLines {
+  std::vector<ChatLine> lines;
+  friend bool operator==(const ChatLines&, const ChatLines&) = default;
+};
 struct Bye {
   Failure failure;  ///< Written as code and message.
   std::optional<std::uint32_t> retry_after_ms;
   friend bool operator==(const Bye&, const Bye&) = default;
 };
-using ServerMessage =
-    std::variant<Welcome, Joined, Applied, Rejected, CaughtUp, Done, Presence, Event, Bye>;
+using ServerMessage = std::variant<Welcome, Joined, Applied, Rejected, CaughtUp, Done, Presence,
+                                   Event, SettingsChanged, ChatLines, Bye>;
 
 [[nodiscard]] Result<ClientMessage> parse_client_message(std::string_view text);
 [[nodiscard]] std::string write(const ClientMessage& message);

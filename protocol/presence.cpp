@@ -43,7 +43,8 @@ Result<User> read_user(JsonFields in) {
 Result<UserCursor> read_user_cursor(JsonFields in) {
   UserCursor cursor{.session = in.hex_digits("session", kSessionDigits),
                     .at = read_place(in),
-                    .brush = read_brush(in)};
+                    .brush = read_brush(in),
+                    .view = read_seen(in)};
   return in.result(std::move(cursor));
 }
 
@@ -96,6 +97,24 @@ void write_brush(const std::optional<Brush>& brush, ordered_json& out) {
   if (brush->layer != 0) fields["layer"] = brush->layer;
 }
 
+MapRect read_rect(JsonFields& in, const char* key) {
+  const auto r = in.numbers(key, 4);
+  if (!in.failed() && !(r[0] <= r[2] && r[1] <= r[3]))
+    in.refuse(Code::out_of_range, key, "[x0, y0, x1, y1] needs x0 <= x1 and y0 <= y1");
+  return {r[0], r[1], r[2], r[3]};
+}
+
+ordered_json write_rect(const MapRect& rect) { return {rect.x0, rect.y0, rect.x1, rect.y1}; }
+
+std::optional<MapRect> read_seen(JsonFields& in) {
+  if (!in.has("view")) return std::nullopt;
+  return read_rect(in, "view");
+}
+
+void write_seen(const std::optional<MapRect>& view, ordered_json& out) {
+  if (view) out["view"] = write_rect(*view);
+}
+
 std::vector<User> read_users(JsonFields& in) { return read_list<User>(in, "users", read_user); }
 
 ordered_json write_users(const std::vector<User>& users) {
@@ -127,6 +146,7 @@ void write_presence(const Presence& presence, ordered_json& out) {
     ordered_json one{{"session", cursor.session}};
     write_place(cursor.at, one);
     write_brush(cursor.brush, one);
+    write_seen(cursor.view, one);
     cursors.push_back(std::move(one));
   }
 }

@@ -19,6 +19,14 @@ void write_place(const std::optional<MapPoint>& at, nlohmann::ordered_json& out)
 std::optional<Brush> read_brush(JsonFields& in);
 void write_brush(const std::optional<Brush>& brush, nlohmann::ordered_json& out);
 
+/// A field [x0, y0, x1, y1] with x0 <= x1 and y0 <= y1.
+MapRect read_rect(JsonFields& in, const char* key);
+[[nodiscard]] nlohmann::ordered_json write_rect(const MapRect& rect);
+
+/// "view": the part of the map that somebody sees; nothing when it is missing.
+std::optional<MapRect> read_seen(JsonFields& in);
+void write_seen(const std::optional<MapRect>& view, nlohmann::ordered_json& out);
+
 /// The array "users".
 std::vector<User> read_users(JsonFields& in);
 [[nodiscard]] nlohmann::ordered_json write_users(const std::vector<User>& users);

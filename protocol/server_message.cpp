@@ -31,6 +31,10 @@ ordered_json write_limits() {
       {"max_name_bytes", kMaxNameBytes},
       {"max_name_characters", kMaxNameCharacters},
       {"max_layers", kMaxLayers},
+      {"max_chat_characters", kMaxChatCharacters},
+      {"max_chat_lines", kMaxChatLines},
+      {"chat_seconds", kChatSeconds},
+      {"kept_chat_lines", kKeptChatLines},
       {"max_frame_bytes", kMaxFrameBytes},
       {"max_record_bytes", kMaxRecordBytes},
       {"max_vertices", kMaxVertices},
@@ -57,16 +61,19 @@ Result<ServerMessage> read_welcome(JsonFields& in) {
   return in.result<ServerMessage>(std::move(welcome));
 }
 
+MapSettings read_settings_field(JsonFields& in) {
+  const json* object = in.value("settings");
+  if (!object) return {};
+  auto settings = read_settings(*object);
+  if (settings) return std::move(*settings);
+  in.refuse(std::move(settings.error()));
+  return {};
+}
+
 Result<ServerMessage> read_joined(JsonFields& in) {
   Joined joined;
   joined.map = in.map_name("map");
-  if (const json* object = in.value("settings")) {
-    auto settings = read_settings(*object);
-    if (settings)
-      joined.settings = std::move(*settings);
-    else
-      in.refuse(std::move(settings.error()));
-  }
+  joined.settings = read_settings_field(in);
   joined.epoch = in.hex_digits("epoch", kEpochDigits);
   joined.seq = read_seq(in);
   joined.users = read_users(in);
@@ -93,6 +100,32 @@ Result<ServerMessage> read_event(JsonFields& in, const json& object) {
   return ServerMessage(std::move(event));
 }
 
+Result<ServerMessage> read_settings_changed(JsonFields& in) {
+  SettingsChanged changed{.seq = read_seq(in, "seq", 1), .settings = read_settings_field(in)};
+  return in.result<ServerMessage>(std::move(changed));
+}
+
+Result<ChatLine> read_chat_line(JsonFields in) {
+  ChatLine line{.n = read_seq(in, "n", 1),
+                .time_ms = in.integer("time", {-kMaxInteger, kMaxInteger}),
+                .session = in.hex_digits("session", kSessionDigits),
+                .name = in.name("name"),
+                .color = in.color("color"),
+                .text = in.words("text", kMaxChatCharacters)};
+  return in.result(std::move(line));
+}
+
+Result<ServerMessage> read_chat_lines(JsonFields& in) {
+  ChatLines chat;
+  const json* array = in.array("lines", 1, kKeptChatLines);
+  for (std::size_t i = 0; array && i < array->size(); ++i) {
+    auto line = read_chat_line(JsonFields((*array)[i], "lines[" + std::to_string(i) + "]"));
+    if (!line) return tl::unexpected<Failure>(std::move(line.error()));
+    chat.lines.push_back(std::move(*line));
+  }
+  return in.result<ServerMessage>(std::move(chat));
+}
+
 Result<ServerMessage> read_bye(JsonFields& in) {
   Bye bye{.failure = read_failure(in), .retry_after_ms = {}};
   if (in.has("retry_after_ms")) bye.retry_after_ms = read_u32(in, "retry_after_ms");
@@ -113,6 +146,8 @@ Result<ServerMessage> read_message(const json& object) {
   if (type == "joined") return read_joined(in);
   if (type == "presence") return read_presence(in);
   if (type == "event") return read_event(in, object);
+  if (type == "settings") return read_settings_changed(in);
+  if (type == "chat") return read_chat_lines(in);
   if (type == "bye") return read_bye(in);
   return fail(Code::bad_message, "type: is no message of a server", "type");
 }
@@ -164,6 +199,22 @@ struct Writer {
     write_edit(event.edit, out);
     out["hash"] = event.hash;
     return "event";
+  }
+  const char* operator()(const SettingsChanged& changed) const {
+    out["seq"] = changed.seq;
+    out["settings"] = write_settings(changed.settings);
+    return "settings";
+  }
+  const char* operator()(const ChatLines& chat) const {
+    auto& lines = out["lines"] = ordered_json::array();
+    for (const ChatLine& line : chat.lines)
+      lines.push_back({{"n", line.n},
+                       {"time", line.time_ms},
+                       {"session", line.session},
+                       {"name", line.name},
+                       {"color", line.color},
+                       {"text", line.text}});
+    return "chat";
   }
   const char* operator()(const Bye& bye) const {
     write_failure(bye.failure);

@@ -5,6 +5,7 @@
 
 #include "protocol/chunk_range.hpp"
 #include "protocol/json_fields.hpp"
+#include "protocol/wall_heights.hpp"
 
 namespace earthwork::protocol {
 namespace {
@@ -41,15 +42,10 @@ std::array<std::int32_t, 4> read_chunks(JsonFields& in, int resolution) {
 }
 
 void read_wall(JsonFields& in, LayerSettings& layer) {
-  const auto wall = in.numbers("wall", 2);
+  const auto wall = read_wall_heights(in);
   if (in.failed()) return;
   layer.bottom = wall[0];
   layer.top = wall[1];
-  if (std::max(std::abs(layer.bottom), std::abs(layer.top)) > kMaxHeight)
-    in.refuse(Code::out_of_range, "wall", "a height is beyond the limit of " + plain(kMaxHeight));
-  else if (static_cast<float>(layer.bottom) >= static_cast<float>(layer.top))
-    in.refuse(Code::out_of_range, "wall",
-              "[bottom, top] needs bottom < top, also as 32-bit floats");
 }
 
 LayerSettings read_layer(JsonFields in, std::optional<Failure>& failure) {
@@ -85,6 +81,17 @@ double read_within(JsonFields& in, const char* key, double min, double max) {
 }
 
 }  // namespace
+
+std::array<double, 2> read_wall_heights(JsonFields& in) {
+  const auto wall = in.numbers("wall", 2);
+  if (in.failed()) return {};
+  if (std::max(std::abs(wall[0]), std::abs(wall[1])) > kMaxHeight)
+    in.refuse(Code::out_of_range, "wall", "a height is beyond the limit of " + plain(kMaxHeight));
+  else if (static_cast<float>(wall[0]) >= static_cast<float>(wall[1]))
+    in.refuse(Code::out_of_range, "wall",
+              "[bottom, top] needs bottom < top, also as 32-bit floats");
+  return {wall[0], wall[1]};
+}
 
 Result<MapSettings> read_settings(const json& json) {
   JsonFields in(json);

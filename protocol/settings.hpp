@@ -1,4 +1,5 @@
-/// A map's settings: fixed when it is created, the first line of a script, part of `joined`.
+/// A map's settings: said when it is created, the first line of a script, part of `joined`. Only
+/// layers change later, by numbered changes (layer_change.hpp).
 #pragma once
 
 #include <array>

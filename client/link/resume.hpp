@@ -68,6 +68,9 @@ class Resume {
   [[nodiscard]] protocol::Result<Unanswered::Kept> add(const protocol::Edit& edit) {
     return unanswered_.add(edit);
   }
+  [[nodiscard]] protocol::Result<Unanswered::Kept> add(const protocol::LayerChange& change) {
+    return unanswered_.add(change);
+  }
   /// The view to ask for from now on. What comes back is the message to be sent when a map is
   /// joined; `opening` has it otherwise.
   [[nodiscard]] std::string look(const protocol::View& view);

@@ -8,8 +8,16 @@ using protocol::Code;
 using protocol::MessageId;
 
 protocol::Result<Unanswered::Kept> Unanswered::add(const protocol::Edit& edit) {
+  return keep(protocol::EditMessage{.id = last_id_ + 1, .edit = edit});
+}
+
+protocol::Result<Unanswered::Kept> Unanswered::add(const protocol::LayerChange& change) {
+  return keep(protocol::LayerMessage{.id = last_id_ + 1, .change = change});
+}
+
+protocol::Result<Unanswered::Kept> Unanswered::keep(const protocol::ClientMessage& message) {
   const MessageId id = last_id_ + 1;
-  std::string text = protocol::write(protocol::EditMessage{.id = id, .edit = edit});
+  std::string text = protocol::write(message);
   if (text.size() > protocol::kMaxControlBytes)
     return protocol::fail(Code::too_large, "a message of " + std::to_string(text.size()) +
                                                " bytes is beyond the limit of " +

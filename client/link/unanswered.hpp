@@ -1,5 +1,5 @@
-/// The edits that a client has made and the server has not answered: kept, so that they can be sent
-/// again over another connection.
+/// The edits that a client has made and the server has not answered, changes of layers too: kept,
+/// so that they can be sent again over another connection.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +33,7 @@ class Unanswered {
   /// Fails with too_large, and uses no id, when the message is longer than kMaxControlBytes or more
   /// would wait than the two bounds allow.
   [[nodiscard]] protocol::Result<Kept> add(const protocol::Edit& edit);
+  [[nodiscard]] protocol::Result<Kept> add(const protocol::LayerChange& change);
   /// It was answered: forgets it. False when it did not wait.
   [[nodiscard]] bool answer(protocol::MessageId id);
   /// Forgets all, and says which they were, in order.
@@ -43,6 +44,8 @@ class Unanswered {
   [[nodiscard]] bool full() const;
 
  private:
+  protocol::Result<Kept> keep(const protocol::ClientMessage& message);
+
   Edits edits_;
   std::size_t bytes_ = 0;
   protocol::MessageId last_id_;

@@ -69,6 +69,8 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void handle(const protocol::Ping& ping);
   void handle(const protocol::Undo& undo) { refuse_unsupported(undo.id, "undo"); }
   void handle(const protocol::Redo& redo) { refuse_unsupported(redo.id, "redo"); }
+  void handle(const protocol::LayerMessage& layer) { refuse_unsupported(layer.id, "layer"); }
+  void handle(const protocol::Chat& chat) { refuse_unsupported(chat.id, "chat"); }
   void handle(protocol::Cursor& cursor);
   void handle(const protocol::Events& events);
 
