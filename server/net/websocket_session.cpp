@@ -63,16 +63,19 @@ struct TcpOption {
 // Nothing is compressed, so nothing is kept for it.
 using Stream = websocket::stream<BufferedSocket, false>;
 
-/// Counts a session among those that are open.
+/// Counts a session among those that are open. One that a stopping server did not wait for goes
+/// with the context it ran on, after the atlas.
 class OpenSession {
  public:
-  explicit OpenSession(room::Meters& meters) : meters_(meters) { ++meters_.sessions; }
-  ~OpenSession() { --meters_.sessions; }
+  explicit OpenSession(std::shared_ptr<room::Meters> meters) : meters_(std::move(meters)) {
+    ++meters_->sessions;
+  }
+  ~OpenSession() { --meters_->sessions; }
   OpenSession(const OpenSession&) = delete;
   OpenSession& operator=(const OpenSession&) = delete;
 
  private:
-  room::Meters& meters_;
+  const std::shared_ptr<room::Meters> meters_;
 };
 
 /// Beast ends a session through errors it makes itself; here all ends come from the coroutines.
@@ -80,7 +83,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
  public:
   WebSocketSession(asio::ip::tcp::socket socket, const Service& service)
       : ws_(std::move(socket)),
-        meters_(service.atlas.meters()),
+        meters_(service.atlas.shared_meters()),
         limits_(service.limits),
         readable_(ws_.get_executor()),
         said_all_(ws_.get_executor()),
@@ -118,7 +121,7 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   awaitable<void> sleep(std::chrono::nanoseconds time);
 
   Stream ws_;
-  room::Meters& meters_;
+  const std::shared_ptr<room::Meters> meters_;
   const SessionLimits limits_;
   Signal readable_, said_all_, never_;
   Rate rate_;

@@ -437,6 +437,8 @@ std::vector<std::shared_ptr<Room>> Atlas::rooms() const { return core_->rooms();
 
 Meters& Atlas::meters() const { return *core_->meters; }
 
+std::shared_ptr<Meters> Atlas::shared_meters() const { return core_->meters; }
+
 void Atlas::let_go(const Room& closed) { core_->let_go(closed, Core::By::itself); }
 
 bool Atlas::stop(std::chrono::milliseconds patience) { return core_->stop(patience); }

@@ -91,6 +91,8 @@ class Atlas {
   /// Those that live now, in order of their names.
   [[nodiscard]] std::vector<std::shared_ptr<Room>> rooms() const;
   [[nodiscard]] Meters& meters() const;
+  /// The same, for who may outlive the atlas.
+  [[nodiscard]] std::shared_ptr<Meters> shared_meters() const;
 
   /// Closes all rooms once what they accepted is stored, opens none any more, and waits until
   /// every journal is closed. False when that took longer than `patience`. Their strands must be

@@ -74,9 +74,10 @@ void PresenceBoard::point(ViewerId id, const protocol::Cursor& cursor, std::int6
   Person& person = found->second;
   person.pointed_ms = now_ms;
   const auto brush = cursor.at ? cursor.brush : std::nullopt;
-  if (person.at == cursor.at && person.brush == brush) return;
+  if (person.at == cursor.at && person.brush == brush && person.view == cursor.view) return;
   person.at = cursor.at;
   person.brush = brush;
+  person.view = cursor.view;
   if (person.listed) person.pointed_at = next();
 }
 
@@ -146,7 +147,7 @@ PresenceBoard::News PresenceBoard::write_news(const Knowledge& knowledge) const 
     const bool came = news.all ? person.listed_at <= version_ : is_news(person.listed_at);
     const bool moved = every_cursor && person.at ? true : !news.all && is_news(person.pointed_at);
     if (came) news.users.push_back(person.user);
-    if (moved) news.cursors.push_back({person.user.session, person.at, person.brush});
+    if (moved) news.cursors.push_back({person.user.session, person.at, person.brush, person.view});
     if (came || moved) about.insert(id);
   }
   for (const Departure& departure : departures_)

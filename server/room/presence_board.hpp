@@ -60,6 +60,8 @@ class PresenceBoard {
     std::uint64_t listed_at = 0;  // the version in which it came
     std::optional<protocol::MapPoint> at;
     std::optional<protocol::Brush> brush;
+    std::optional<protocol::MapRect>
+        view;                      // kept while its cursor is hidden: there is still somebody
     std::uint64_t pointed_at = 0;  // the version in which its cursor moved; 0 never
     std::int64_t pointed_ms = 0;
   };

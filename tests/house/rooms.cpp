@@ -108,9 +108,13 @@ const std::vector<Room>& rooms() {
       {"client/replay",
        {"client/scene", "client/link", "server/history", "protocol"},
        {"boost/", "CLI/", "nlohmann/", "tl/", "fmt/"}},
-      {"client/viewer",
-       {"client/scene", "client/link", "protocol"},
-       {"GLFW/", "epoxy/", "imgui", "CLI/", "fmt/"}},
+      {"client/viewer", {"client/scene", "client/link", "protocol"}, {"nlohmann/", "tl/"}},
+      {"client/viewer/render",
+       {"client/viewer", "client/scene", "protocol"},
+       {"epoxy/", "EGL/", "GLES3/", "tl/"}},
+      {"client/viewer/web",
+       {"client/viewer", "client/viewer/render", "client/scene", "protocol"},
+       {"emscripten/", "emscripten.h", "GLES3/", "nlohmann/", "tl/"}},
   };
   return table;
 }

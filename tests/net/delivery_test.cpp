@@ -238,5 +238,17 @@ TEST_F(DeliveryTest, PingsOfWhoReadsSlowlyDoNoHarm) {
   EXPECT_GT(all.size(), kMapBytes - kOnTheWayBytes);
 }
 
+// Its session is not waited for, and goes with the server. The sanitizers look on.
+TEST_F(DeliveryTest, AServerEndsBeforeASessionThatIsStillSending) {
+  paint_dots();
+  const auto viewer = raw_guest();
+  viewer->send(masked_text(kViewAll));
+  viewer->read_until("\"done\"");
+  server.reset();
+  bool closed = false;
+  EXPECT_LT(viewer->read_to_end(closed).size(), kOnTheWayBytes);
+  EXPECT_TRUE(closed);
+}
+
 }  // namespace
 }  // namespace earthwork::net
