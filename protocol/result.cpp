@@ -6,11 +6,11 @@ namespace earthwork::protocol {
 namespace {
 
 // In the order of the enum.
-constexpr std::array<std::string_view, 22> kNames{
+constexpr std::array<std::string_view, 23> kNames{
     "bad_json",        "bad_message",   "bad_field",   "out_of_range",  "too_large", "bad_frame",
     "bad_version",     "bad_state",     "unknown_map", "map_exists",    "bad_name",  "id_too_old",
     "id_out_of_order", "not_supported", "timeout",     "shutting_down", "disk_full", "read_only",
-    "storage_failed",  "damaged",       "unavailable", "internal",
+    "storage_failed",  "damaged",       "unavailable", "too_fast",      "internal",
 };
 static_assert(kNames.size() == static_cast<std::size_t>(Code::internal) + 1);
 

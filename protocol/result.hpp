@@ -32,6 +32,7 @@ enum class Code : std::uint8_t {
   storage_failed,   ///< Storing or reading failed for another reason.
   damaged,          ///< What was stored is not what is there.
   unavailable,      ///< Not to be had right now.
+  too_fast,         ///< More of it than may be asked for in a while.
   internal,
 };
 
