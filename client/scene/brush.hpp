@@ -25,6 +25,10 @@ struct BrushSettings {
   friend bool operator==(const BrushSettings&, const BrushSettings&) = default;
 };
 
+/// How the brush snaps: a radius below half a voxel, which could slip between the voxels and paint
+/// nothing, always goes to centres.
+[[nodiscard]] Snap snap_of(const BrushSettings& brush);
+
 /// Where a stamp that is aimed at `at` is made.
 [[nodiscard]] protocol::MapPoint snapped(protocol::MapPoint at, Snap snap, double voxel_size);
 
