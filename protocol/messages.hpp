@@ -216,5 +216,7 @@ using ServerMessage = std::variant<Welcome, Joined, Applied, Rejected, CaughtUp,
 
 /// A view's rectangle covers at most kMaxViewChunks chunks of a map with these settings.
 [[nodiscard]] Result<void> check_view(const View& view, const MapSettings& settings);
+/// What somebody sees lies within kMaxCoordinateVoxels of 0; the field is "view".
+[[nodiscard]] Result<void> check_seen(const MapRect& view, const MapSettings& settings);
 
 }  // namespace earthwork::protocol

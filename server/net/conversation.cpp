@@ -1,8 +1,10 @@
 #include "server/net/conversation.hpp"
 
+#include <string>
 #include <utility>
 #include <variant>
 
+#include "protocol/limits.hpp"
 #include "server/net/identity.hpp"
 #include "server/room/entropy.hpp"
 
@@ -144,6 +146,20 @@ void Conversation::handle(const protocol::Events& events) {
     return reject(events.id, {Code::bad_state, "join a map first", "type"});
   ask_room(events.id, [seq = events.from_seq](room::Room& room, room::ViewerId viewer) {
     return room.follow(viewer, seq);
+  });
+}
+
+void Conversation::handle(protocol::Chat& chat) {
+  if (place_ != Place::inside)
+    return reject(chat.id, {Code::bad_state, "join a map first", "type"});
+  if (const auto wait_ms = chat_rate_.take(own_->now_ms()))
+    return reject(chat.id, {Code::too_fast,
+                            "text: a session may say " + std::to_string(protocol::kMaxChatLines) +
+                                " lines in " + std::to_string(protocol::kChatSeconds) +
+                                " s; say it again in " + std::to_string(*wait_ms) + " ms",
+                            "text"});
+  ask_room(chat.id, [text = std::move(chat.text)](room::Room& room, room::ViewerId viewer) {
+    return room.say(viewer, text);
   });
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/net/chat_rate.hpp"
 #include "server/net/outbox.hpp"
 #include "server/room/atlas.hpp"
 #include "server/room/room.hpp"
@@ -70,7 +71,7 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void handle(const protocol::Undo& undo) { refuse_unsupported(undo.id, "undo"); }
   void handle(const protocol::Redo& redo) { refuse_unsupported(redo.id, "redo"); }
   void handle(const protocol::LayerMessage& layer) { refuse_unsupported(layer.id, "layer"); }
-  void handle(const protocol::Chat& chat) { refuse_unsupported(chat.id, "chat"); }
+  void handle(protocol::Chat& chat);
   void handle(protocol::Cursor& cursor);
   void handle(const protocol::Events& events);
 
@@ -119,6 +120,7 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   int unanswered_ = 0;
   int cursors_on_their_way_ = 0;
   std::optional<protocol::Cursor> next_cursor_;  // the latest one without an id
+  ChatRate chat_rate_;
   bool ending_ = false, abandoned_ = false;
 };
 

@@ -21,6 +21,8 @@ int status_of(Code code) {
       return 501;
     case Code::timeout:
       return 408;
+    case Code::too_fast:
+      return 429;
     case Code::shutting_down:
       return 503;
     case Code::disk_full:
@@ -59,6 +61,8 @@ const char* title_of(int status) {
       return "Cannot be made";
     case 426:
       return "Upgrade required";
+    case 429:
+      return "Too many requests";
     case 431:
       return "Header too large";
     case 501:

@@ -71,6 +71,8 @@ void add_work(Page& page, const room::Meters& meters) {
   page.counter("earthwork_edits_repeated_total",
                "Edits that were sent again after they had been applied, and only answered.",
                meters.repeated.load());
+  page.counter("earthwork_chat_lines_total", "Lines of chat that were said.",
+               meters.chat_lines.load());
   page.add(by_code("earthwork_rejected_total",
                    "Messages that were refused, by the code of the refusal.", meters.rejected));
   page.counter("earthwork_meshed_chunks_total", "Meshes of chunks that were made.",

@@ -79,7 +79,8 @@ class Atlas::Core : public std::enable_shared_from_this<Core> {
   void start_opening(const std::string& name, Page& page,
                      std::optional<protocol::MapSettings> settings, After& after);
   void make(const std::string& name, std::uint64_t opening,
-            const std::optional<protocol::MapSettings>& settings);
+            const std::optional<protocol::MapSettings>& settings,
+            const std::shared_ptr<ChatLog>& chat);
   void opened(const std::string& name, Page& page, const RoomMaker::Furnished& map, After& after);
   void not_opened(const std::string& name, Page& page, const Failure& why, After& after);
   using CloseRoom = void(const RoomMaker::Furnished&, const Failure&);
@@ -99,6 +100,7 @@ class Atlas::Core : public std::enable_shared_from_this<Core> {
   const std::unique_ptr<Strand> strand_;  // for the time; null where maps are not kept
   const std::shared_ptr<AsideQueue> queue_;
   RoomMaker maker_;
+  const std::shared_ptr<ChatArchive> archive_ = std::make_shared<ChatArchive>();
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -184,17 +186,20 @@ void Atlas::Core::start_opening(const std::string& name, Page& page,
                                 std::optional<protocol::MapSettings> settings, After& after) {
   page.state = Page::State::opening;
   page.opening = ++last_opening_;
-  after.push_back([this, name, opening = page.opening, settings = std::move(settings)] {
-    queue_->post([self = shared_from_this(), name, opening, settings] {
-      self->make(name, opening, settings);
-    });
-  });
+  if (!page.chat) page.chat = std::make_shared<ChatLog>(archive_);
+  after.push_back(
+      [this, name, opening = page.opening, settings = std::move(settings), chat = page.chat] {
+        queue_->post([self = shared_from_this(), name, opening, settings, chat] {
+          self->make(name, opening, settings, chat);
+        });
+      });
 }
 
 void Atlas::Core::make(const std::string& name, std::uint64_t opening,
-                       const std::optional<protocol::MapSettings>& settings) {
+                       const std::optional<protocol::MapSettings>& settings,
+                       const std::shared_ptr<ChatLog>& chat) {
   const auto made =
-      maker_.make(name, settings,
+      maker_.make(name, settings, chat,
                   [weak = weak_from_this(), name, opening](std::unique_ptr<journal::Clerk> clerk) {
                     if (const auto self = weak.lock())
                       self->take_back(name, opening, std::move(clerk));

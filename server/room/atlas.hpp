@@ -41,6 +41,9 @@ struct AtlasOptions {
   std::shared_ptr<Meters> meters = std::make_shared<Meters>();  ///< All rooms count there.
 };
 
+/// What was said on a map is kept with it as long as the atlas is there, whether the map is in
+/// memory or put away, within kMaxChatBytes for all maps; it goes when the map is deleted.
+///
 /// Any thread. What is called back is called once: within the call where nothing has to be waited
 /// for, else from any thread.
 class Atlas {

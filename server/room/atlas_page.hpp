@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/room/atlas.hpp"
+#include "server/room/chat_log.hpp"
 #include "server/room/room_maker.hpp"
 
 namespace earthwork::room {
@@ -30,6 +31,7 @@ struct Page {
   std::vector<Atlas::Opened> waiting{};  // for a room
   Atlas::Erased erasing{};               // set: it is being deleted, and nobody finds it any more
   std::optional<std::uint64_t> epoch{};  // once known
+  std::shared_ptr<ChatLog> chat{};       // since it was opened first; its rooms go on in it
   std::optional<protocol::Failure> trouble{};  // why it could not be opened the last time
   std::int64_t trouble_until_ms = 0;           // no new try before
 

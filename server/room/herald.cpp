@@ -8,20 +8,22 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A viewer is told of people at most ten times a second.
+// A viewer is told of people, and what they say, at most ten times a second.
 constexpr milliseconds kTick{100};
 
 }  // namespace
 
-Herald::Herald(PastEvents& events, const Strand& clock, Later later)
-    : events_(events), clock_(clock), later_(std::move(later)) {
+Herald::Herald(PastEvents& events, const Strand& clock, std::shared_ptr<ChatLog> chat, Later later)
+    : events_(events), clock_(clock), later_(std::move(later)), chat_(std::move(chat)) {
   events_.when_page_comes([this] { tell_events(); });
 }
 
 void Herald::enter(ViewerId id, Viewer& viewer, protocol::User user) {
   listeners_[id].viewer = &viewer;
   board_.enter(id, std::move(user));
-  people_changed();
+  chat_.enter(id);
+  talk_soon(id);  // ahead of what it will ask for, meshes say
+  tell_soon();
 }
 
 void Herald::leave(ViewerId id) {
@@ -29,7 +31,8 @@ void Herald::leave(ViewerId id) {
   feed_.leave(id);
   if (feed_.empty()) events_.forget_pages();
   board_.leave(id);
-  people_changed();
+  chat_.leave(id);
+  tell_soon();
 }
 
 void Herald::leave_all() {
@@ -37,21 +40,30 @@ void Herald::leave_all() {
   feed_ = {};
   events_.forget_pages();
   board_ = {};
+  chat_.leave_all();
 }
 
 void Herald::point(ViewerId id, const protocol::Cursor& cursor) {
   board_.point(id, cursor, clock_.now_ms());
   if (cursor.at && !hiding_) hide_cursors_after(milliseconds(kCursorMs));
-  people_changed();
+  tell_soon();
+}
+
+void Herald::say(ViewerId id, std::string text) {
+  const protocol::User* speaker = board_.user_of(id);
+  if (speaker == nullptr) return;
+  chat_.add({.time_ms = clock_.now_ms(),
+             .session = speaker->session,
+             .name = speaker->name,
+             .color = speaker->color,
+             .text = std::move(text)});
+  tell_soon();
 }
 
 void Herald::follow(ViewerId id, std::uint64_t from_seq) {
   if (!listeners_.contains(id)) return;
   feed_.follow(id, from_seq);
-  later_(milliseconds{0}, [this, id] {
-    if (const auto found = listeners_.find(id); found != listeners_.end())
-      talk_to(id, found->second);
-  });
+  talk_soon(id);
 }
 
 void Herald::heard(ViewerId id) {
@@ -66,11 +78,19 @@ void Herald::tell_events() {
   if (feed_.empty()) events_.forget_pages();
 }
 
+void Herald::talk_soon(ViewerId id) {
+  later_(milliseconds{0}, [this, id] {
+    if (const auto found = listeners_.find(id); found != listeners_.end())
+      talk_to(id, found->second);
+  });
+}
+
 void Herald::talk_to(ViewerId id, Listener& listener) {
   if (!listener.hears) return;
   Talk talk;
   std::size_t bytes = kMaxTalkBytes;
-  if (SharedText news = board_.news_for(id)) {
+  for (SharedText news : {chat_.news_for(id), board_.news_for(id)}) {
+    if (!news) continue;
     bytes -= std::min(bytes, news->size());
     talk.messages.push_back(std::move(news));
   }
@@ -82,16 +102,17 @@ void Herald::talk_to(ViewerId id, Listener& listener) {
 
 // The first change is told at once, what follows it together at the next tick: so a crowd that
 // comes in is written for a few times and not once for each.
-void Herald::people_changed() {
-  if (ticking_ || !board_.changed()) return;
+void Herald::tell_soon() {
+  if (ticking_ || !(board_.changed() || chat_.changed())) return;
   ticking_ = true;
   later_(milliseconds{0}, [this] { tick(); });
 }
 
 void Herald::tick() {
-  ticking_ = board_.changed();
+  ticking_ = board_.changed() || chat_.changed();
   if (!ticking_) return;
-  board_.advance();
+  if (board_.changed()) board_.advance();
+  if (chat_.changed()) chat_.advance();
   for (auto& [id, listener] : listeners_) talk_to(id, listener);
   later_(kTick, [this] { tick(); });
 }
@@ -104,7 +125,7 @@ void Herald::hide_cursors_after(milliseconds delay) {
     // A clock that was set back must not make it wait for long.
     if (const auto next_ms = board_.hide_old(now_ms))
       hide_cursors_after(milliseconds(std::clamp(*next_ms - now_ms, std::int64_t{1}, kCursorMs)));
-    people_changed();
+    tell_soon();
   });
 }
 

@@ -1,15 +1,18 @@
-/// Tells the viewers of a map about people and events: to each one talk at a time, and what is new
-/// once it was heard.
+/// Tells the viewers of a map about people, what they say, and events: to each one talk at a time,
+/// and what is new once it was heard.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "protocol/messages.hpp"
 #include "server/history/event.hpp"
+#include "server/room/chat_feed.hpp"
 #include "server/room/event_feed.hpp"
 #include "server/room/presence_board.hpp"
 #include "server/room/strand.hpp"
@@ -18,16 +21,18 @@
 namespace earthwork::room {
 
 /// On the strand of the room whose part it is. It runs a timer only for a tenth of a second after
-/// people changed, and while there are cursors to hide.
+/// people changed or said something, and while there are cursors to hide.
 class Herald {
  public:
   /// Runs a task on that strand after a delay, or not at all when the room is gone by then.
   using Later = std::function<void(std::chrono::milliseconds delay, std::function<void()> task)>;
 
-  /// Is called when a page of `events` comes. They and `clock` outlive the herald.
-  Herald(PastEvents& events, const Strand& clock, Later later);
+  /// Is called when a page of `events` comes. They and `clock` outlive the herald; what is said is
+  /// kept in `chat`.
+  Herald(PastEvents& events, const Strand& clock, std::shared_ptr<ChatLog> chat, Later later);
 
-  /// `viewer` stays until it leaves. Its user is told to the others soon.
+  /// `viewer` stays until it leaves. Its user is told to the others soon, and it is told what was
+  /// said before.
   void enter(ViewerId id, Viewer& viewer, protocol::User user);
   /// After it the viewer is not called again, and is nobody here.
   void leave(ViewerId id);
@@ -39,6 +44,8 @@ class Herald {
 
   /// None of these calls a viewer, apart from `heard`, and none does anything for nobody.
   void point(ViewerId id, const protocol::Cursor& cursor);
+  /// To all, itself too; at most ten times a second, what is said meanwhile together.
+  void say(ViewerId id, std::string text);
   /// From `from_seq` on, at least 1 and at most the one after `events.last_seq()`.
   void follow(ViewerId id, std::uint64_t from_seq);
   /// The viewer takes the next talk: from within the call, if there is one.
@@ -55,7 +62,8 @@ class Herald {
   };
 
   void talk_to(ViewerId id, Listener& listener);
-  void people_changed();
+  void talk_soon(ViewerId id);
+  void tell_soon();
   void tick();
   void hide_cursors_after(std::chrono::milliseconds delay);
 
@@ -63,6 +71,7 @@ class Herald {
   const Strand& clock_;
   const Later later_;
   PresenceBoard board_;
+  ChatFeed chat_;
   EventFeed feed_;
   std::map<ViewerId, Listener> listeners_;
   bool ticking_ = false, hiding_ = false;  // a timer runs

@@ -16,6 +16,7 @@ struct Meters {
 
   Count edits{0};                       ///< Accepted: they have numbers.
   Count repeated{0};                    ///< Answered from memory, for they had been sent before.
+  Count chat_lines{0};                  ///< Said.
   Count meshed_chunks{0};               ///< Meshes made, the unchanged ones too,
   Count mesh_ns{0};                     ///< and how long it took, all threads added up.
   Count frames{0}, frame_bytes{0};      ///< Binary messages written to sockets.

@@ -1,4 +1,5 @@
-/// What a room begins with: a map as it was left, and the journal that it goes on in.
+/// What a room begins with: a map as it was left, the journal that it goes on in, and what was said
+/// there.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include "server/journal/clerk.hpp"
 #include "server/journal/journal.hpp"
 #include "server/journal/restore.hpp"
+#include "server/room/chat_log.hpp"
 
 namespace earthwork::room {
 
@@ -22,6 +24,7 @@ struct Opening {
   journal::Restored restored;  ///< The whole journal; an empty map for a new one.
   std::unique_ptr<journal::Clerk> clerk;
   Commits commits = Commits::later;
+  std::shared_ptr<ChatLog> chat{};  ///< Null: nothing was said, and it ends with the room.
 };
 
 /// Of a new, empty map that ends with the process.

@@ -33,7 +33,7 @@ void PresenceBoard::list(ViewerId id, Person& person) {
   person.listed = true;
   person.listed_at = next();
   come_back(person);
-  if (person.at) person.pointed_at = person.listed_at;
+  if (person.at || person.view) person.pointed_at = person.listed_at;
 }
 
 // Of a session that left and is here again only the second is told, and that its cursor of before
@@ -97,6 +97,11 @@ std::optional<std::int64_t> PresenceBoard::hide_old(std::int64_t now_ms) {
   return first;
 }
 
+const protocol::User* PresenceBoard::user_of(ViewerId id) const {
+  const auto found = people_.find(id);
+  return found == people_.end() ? nullptr : &found->second.user;
+}
+
 std::vector<protocol::User> PresenceBoard::users_for(ViewerId id) const {
   std::vector<protocol::User> users;
   for (const auto& [other, person] : people_) {
@@ -145,7 +150,8 @@ PresenceBoard::News PresenceBoard::write_news(const Knowledge& knowledge) const 
   for (const auto& [id, person] : people_) {
     if (!person.listed) continue;
     const bool came = news.all ? person.listed_at <= version_ : is_news(person.listed_at);
-    const bool moved = every_cursor && person.at ? true : !news.all && is_news(person.pointed_at);
+    const bool unknown = every_cursor && (person.at || person.view);
+    const bool moved = unknown || (!news.all && is_news(person.pointed_at));
     if (came) news.users.push_back(person.user);
     if (moved) news.cursors.push_back({person.user.session, person.at, person.brush, person.view});
     if (came || moved) about.insert(id);

@@ -1,4 +1,5 @@
-/// Who takes part in a map and where they point, and what of it each of them does not know yet.
+/// Who takes part in a map, where they point and what they see, and what of it each of them does
+/// not know yet.
 ///
 /// Changes are gathered into versions. Somebody who knows one version is told all that is new in
 /// the current one, in one message; whoever knows the same version is told the same text, which is
@@ -31,14 +32,17 @@ inline constexpr std::int64_t kCursorMs = 30'000;
 /// One thread at a time.
 class PresenceBoard {
  public:
-  /// `id` is new. Everybody is to be told, and it is to be told of all cursors.
+  /// `id` is new. Everybody is to be told, and it is to be told of all cursors and views.
   void enter(ViewerId id, protocol::User user);
   void leave(ViewerId id);
-  /// Of what comes before the next version the last one counts. The same again only renews it.
+  /// Of what comes before the next version the last one counts. The same again only renews it. The
+  /// view is that of the last cursor, a hidden one's too, until its owner leaves.
   void point(ViewerId id, const protocol::Cursor& cursor, std::int64_t now_ms);
   /// Hides the cursors that are too old, and says when the next one will be, if there is any.
   std::optional<std::int64_t> hide_old(std::int64_t now_ms);
 
+  /// Null for who is not there; else valid until it leaves.
+  [[nodiscard]] const protocol::User* user_of(ViewerId id) const;
   /// For who has just entered: those who are listed, up to kMaxJoinedUsers with itself, the last.
   [[nodiscard]] std::vector<protocol::User> users_for(ViewerId id) const;
 
@@ -54,15 +58,14 @@ class PresenceBoard {
   struct Person {
     protocol::User user;
     bool listed = false;
-    bool newcomer = true;         // knows no cursor yet,
+    bool newcomer = true;         // knows no cursor and no view yet,
     bool lost = false;            // nor who is there
     std::uint64_t known = 0;      // the version that it was told of
     std::uint64_t listed_at = 0;  // the version in which it came
     std::optional<protocol::MapPoint> at;
     std::optional<protocol::Brush> brush;
-    std::optional<protocol::MapRect>
-        view;                      // kept while its cursor is hidden: there is still somebody
-    std::uint64_t pointed_at = 0;  // the version in which its cursor moved; 0 never
+    std::optional<protocol::MapRect> view;  // stays when the cursor is hidden for its age
+    std::uint64_t pointed_at = 0;           // the version in which cursor or view changed; 0 never
     std::int64_t pointed_ms = 0;
   };
   struct Departure {

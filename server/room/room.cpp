@@ -51,6 +51,7 @@ Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
       events_(
           *clerk_, [this] { return workplace(); }, opening.restored.seq),
       herald_(events_, *strand_,
+              opening.chat ? std::move(opening.chat) : std::make_shared<ChatLog>(),
               [this](std::chrono::milliseconds delay, std::function<void()> task) {
                 run_later(delay, std::move(task));
               }),
@@ -119,7 +120,18 @@ protocol::Result<void> Room::point(ViewerId viewer, const protocol::Cursor& curs
     const protocol::Edit stamp = stamp_at(*cursor.at, cursor.brush.value_or(protocol::Brush{}));
     if (auto checked = protocol::check_edit(stamp, settings_); !checked) return checked;
   }
+  if (cursor.view) {
+    if (auto checked = protocol::check_seen(*cursor.view, settings()); !checked) return checked;
+  }
   herald_.point(viewer, cursor);
+  return {};
+}
+
+protocol::Result<void> Room::say(ViewerId viewer, std::string text) {
+  if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "chat: join a map first");
+  used();
+  herald_.say(viewer, std::move(text));
+  ++meters_->chat_lines;
   return {};
 }
 

@@ -108,9 +108,13 @@ class Room : public std::enable_shared_from_this<Room> {
   void heard(ViewerId viewer);
 
   /// Where the viewer points, for the others. Fails as `submit` would for a stamp of its brush
-  /// there, or of radius 0. Of what comes before the others are told, ten times a second, the last
-  /// counts; a cursor that is not said again for kCursorMs is hidden.
+  /// there, or of radius 0, and as `check_seen` for what it sees. Of what comes before the others
+  /// are told, ten times a second, the last counts; a cursor that is not said again for kCursorMs
+  /// is hidden.
   [[nodiscard]] protocol::Result<void> point(ViewerId viewer, const protocol::Cursor& cursor);
+  /// Says something to all who are inside, the viewer too, and to who will join: 1 to
+  /// kMaxChatCharacters characters.
+  [[nodiscard]] protocol::Result<void> say(ViewerId viewer, std::string text);
   /// Tells the viewer all events from `from_seq` on, and those to come. Fails with out_of_range
   /// beyond the next seq that will be durable. Asked again, it starts anew from there.
   [[nodiscard]] protocol::Result<void> follow(ViewerId viewer, std::uint64_t from_seq);

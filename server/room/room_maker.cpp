@@ -18,7 +18,7 @@ RoomMaker::RoomMaker(std::function<std::unique_ptr<Strand>()> make_strand,
 // Whatever is thrown here, out of memory most likely, is this map's trouble alone.
 RoomMaker::Made RoomMaker::make(const std::string& name,
                                 const std::optional<protocol::MapSettings>& settings,
-                                Lease::GiveBack give_back) {
+                                std::shared_ptr<ChatLog> chat, Lease::GiveBack give_back) {
   bool on_shelf = !settings;
   try {
     auto strand = make_strand_();
@@ -29,7 +29,8 @@ RoomMaker::Made RoomMaker::make(const std::string& name,
       return {tl::unexpected<protocol::Failure>(std::move(journal.error())), on_shelf};
     }
     on_shelf = true;
-    return {furnish(name, std::move(*journal), std::move(strand), std::move(give_back))};
+    return {furnish(name, std::move(*journal), std::move(strand), std::move(chat),
+                    std::move(give_back))};
   } catch (const std::exception& error) {
     return {protocol::fail(Code::internal, std::string("map: ") + error.what(), "map"), on_shelf};
   }
@@ -46,6 +47,7 @@ RoomMaker::NewJournal RoomMaker::take(const std::string& name,
 protocol::Result<RoomMaker::Furnished> RoomMaker::furnish(const std::string& name,
                                                           std::unique_ptr<journal::Journal> journal,
                                                           std::unique_ptr<Strand> strand,
+                                                          std::shared_ptr<ChatLog> chat,
                                                           Lease::GiveBack give_back) {
   journal::Identity identity = journal->identity();
   auto restored = journal::restore(*journal, {}, journal::Trust::strict);
@@ -59,7 +61,8 @@ protocol::Result<RoomMaker::Furnished> RoomMaker::furnish(const std::string& nam
   Opening opening{.identity = std::move(identity),
                   .restored = std::move(*restored),
                   .clerk = std::make_unique<LeasedClerk>(lease),
-                  .commits = shelf_->kept() ? Commits::later : Commits::at_once};
+                  .commits = shelf_->kept() ? Commits::later : Commits::at_once,
+                  .chat = std::move(chat)};
   return Furnished{std::make_shared<Room>(name, std::move(opening), std::move(strand), meters_),
                    lease};
 }

@@ -29,11 +29,11 @@ class RoomMaker {
     protocol::Result<Furnished> map;
     bool on_shelf = true;  ///< Whether there is such a map now, be it one that cannot be opened.
   };
-  /// A new map with `settings`, or one that is there. `give_back` is called with the room's clerk
-  /// when the lease ends, as it does with the room at the latest.
+  /// A new map with `settings`, or one that is there, whose talk is kept in `chat`. `give_back` is
+  /// called with the room's clerk when the lease ends, as it does with the room at the latest.
   [[nodiscard]] Made make(const std::string& name,
                           const std::optional<protocol::MapSettings>& settings,
-                          Lease::GiveBack give_back);
+                          std::shared_ptr<ChatLog> chat, Lease::GiveBack give_back);
 
  private:
   using NewJournal = protocol::Result<std::unique_ptr<journal::Journal>>;
@@ -43,6 +43,7 @@ class RoomMaker {
   [[nodiscard]] protocol::Result<Furnished> furnish(const std::string& name,
                                                     std::unique_ptr<journal::Journal> journal,
                                                     std::unique_ptr<Strand> strand,
+                                                    std::shared_ptr<ChatLog> chat,
                                                     Lease::GiveBack give_back);
 
   std::function<std::unique_ptr<Strand>()> make_strand_;
