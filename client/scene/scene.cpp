@@ -65,6 +65,16 @@ Result<void> Scene::take(std::span<protocol::FrameEvent> events, std::size_t mes
   return {};
 }
 
+SceneChanges Scene::take_changed() {
+  SceneChanges changes{.keys = {}, .all = !changed_};
+  if (changed_)
+    changes.keys.assign(changed_->begin(), changed_->end());
+  else
+    for (const auto& [key, chunk] : chunks_) changes.keys.push_back(key);
+  changed_.emplace();
+  return changes;
+}
+
 Result<void> Scene::take_begin(const GroupBegin& begin) {
   if (group_) return fail(Code::bad_frame, "a group begins inside a group");
   if (begin.epoch == epoch_ && begin.seq < seq_)
@@ -146,12 +156,14 @@ void Scene::put(const ChunkKey& key, SceneChunk chunk) {
   stats_.vertices += chunk.mesh.vertices.size();
   stats_.triangles += chunk.mesh.triangles.size() / 3;
   stats_.sections += chunk.mesh.sections.size();
+  note(key);
   chunks_.emplace(key, std::move(chunk));
 }
 
 void Scene::drop(const ChunkKey& key) {
   const auto found = chunks_.find(key);
   if (found == chunks_.end()) return;
+  note(key);
   const SceneChunk& chunk = found->second;
   mesh_hash_ -= chunk.hash_term;
   --stats_.chunks;
@@ -159,6 +171,12 @@ void Scene::drop(const ChunkKey& key) {
   stats_.triangles -= chunk.mesh.triangles.size() / 3;
   stats_.sections -= chunk.mesh.sections.size();
   chunks_.erase(found);
+}
+
+void Scene::note(const ChunkKey& key) {
+  if (!changed_) return;
+  changed_->insert(key);
+  if (changed_->size() > kMaxSceneChunks) changed_.reset();
 }
 
 template <class Stays>
@@ -171,6 +189,7 @@ void Scene::keep_only(const Stays& stays) {
 
 void Scene::clear() {
   chunks_.clear();
+  changed_.reset();
   mesh_hash_ = 0;
   stats_ = {.chunks = 0,
             .triangles = 0,

@@ -6,7 +6,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
+#include <vector>
 
 #include "client/scene/holding.hpp"
 #include "protocol/chunk_record.hpp"
@@ -29,6 +31,13 @@ struct SceneStats {
   std::uint64_t chunks = 0, triangles = 0, vertices = 0, sections = 0;  ///< Held now.
   std::uint64_t frames = 0, bytes = 0;                                  ///< Received in all.
   friend bool operator==(const SceneStats&, const SceneStats&) = default;
+};
+
+/// What a drawing of the scene needs to be brought up to date.
+struct SceneChanges {
+  std::vector<protocol::ChunkKey> keys;  ///< In order, each once; gone if `chunks` has none.
+  bool all = false;  ///< Nothing that was there before stays; `keys` are all that is held.
+  friend bool operator==(const SceneChanges&, const SceneChanges&) = default;
 };
 
 /// Told of the join before anything else, then of all that arrives, in order. One thread at a time.
@@ -54,6 +63,13 @@ class Scene {
   /// too_large; after that the scene must not be fed again.
   [[nodiscard]] protocol::Result<void> take(std::span<protocol::FrameEvent> events,
                                             std::size_t message_bytes);
+
+  /// The chunks that are new, different or gone since the last call; at the first one all that is
+  /// held. For a single drawing. A scene that is never asked keeps nothing for it, and of more
+  /// than kMaxSceneChunks changes it is all.
+  [[nodiscard]] SceneChanges take_changed();
+  /// Something is to be taken.
+  [[nodiscard]] bool changed() const { return !changed_ || !changed_->empty(); }
 
   /// Those that have a mesh. Valid until the next change.
   [[nodiscard]] const Chunks& chunks() const { return chunks_; }
@@ -84,6 +100,7 @@ class Scene {
   protocol::Result<void> apply(protocol::ChunkRecord& record);
   void put(const protocol::ChunkKey& key, SceneChunk chunk);
   void drop(const protocol::ChunkKey& key);
+  void note(const protocol::ChunkKey& key);
   template <class Stays>
   void keep_only(const Stays& stays);
   void clear();
@@ -94,6 +111,7 @@ class Scene {
   std::optional<std::uint32_t> last_view_, complete_view_;  // asked for, all there
   Holding holding_;
   SceneStats stats_;
+  std::optional<std::set<protocol::ChunkKey>> changed_;  // none: all, or nobody has asked yet
 };
 
 }  // namespace earthwork::scene
