@@ -53,7 +53,9 @@ double world_end(Camera camera) {
 /// Any camera that sees no end of the world.
 Camera any_camera_inland() {
   Camera camera = any_camera();
-  const double furthest = world_end(camera) / 200;
+  // Wide pictures show more of it to the sides.
+  const auto [width, height] = camera.size();
+  const double furthest = world_end(camera) / 200 / std::max(1.0, width / height);
   Camera::Place place = camera.place();
   place.target = {place.target.x / 100, place.target.y / 100};
   place.zoom = std::max(place.zoom, place.zoom * camera.distance() / furthest);
