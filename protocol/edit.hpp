@@ -44,9 +44,13 @@ struct Edit {
 /// The fields of `edit`, added to the object; layer 0 is not written.
 void write_edit(const Edit& edit, nlohmann::ordered_json& out);
 
-/// The limits of an edit that arrives for a map with these settings: layer, radius and
-/// coordinates in voxels, voxel visits and chunks, in this order. A recorded edit is never
-/// checked again.
+/// The limits of an edit that arrives for a map with these settings: those of check_layer and of
+/// check_stamps, in this order. A recorded edit is never checked again.
 [[nodiscard]] Result<void> check_edit(const Edit& edit, const MapSettings& settings);
+/// The map has the layer. It may have it later.
+[[nodiscard]] Result<void> check_layer(const Edit& edit, const MapSettings& settings);
+/// Radius and coordinates in voxels, voxel visits and chunks, in this order: what a map's layers
+/// have no part in.
+[[nodiscard]] Result<void> check_stamps(const Edit& edit, const MapSettings& settings);
 
 }  // namespace earthwork::protocol

@@ -64,10 +64,18 @@ std::uint64_t count_chunks(const Edit& edit, const MapSettings& settings) {
 }  // namespace
 
 Result<void> check_edit(const Edit& edit, const MapSettings& settings) {
-  if (edit.layer >= settings.layers.size())
-    return refuse(Code::out_of_range, "layer",
-                  std::to_string(edit.layer) + " is outside 0 .. " +
-                      std::to_string(settings.layers.size() - 1));
+  if (auto checked = check_layer(edit, settings); !checked) return checked;
+  return check_stamps(edit, settings);
+}
+
+Result<void> check_layer(const Edit& edit, const MapSettings& settings) {
+  if (edit.layer < settings.layers.size()) return {};
+  return refuse(Code::out_of_range, "layer",
+                std::to_string(edit.layer) + " is outside 0 .. " +
+                    std::to_string(settings.layers.size() - 1));
+}
+
+Result<void> check_stamps(const Edit& edit, const MapSettings& settings) {
   const double radius_voxels = edit.radius / settings.voxel_size;
   if (!(radius_voxels <= kMaxRadiusVoxels))
     return refuse(

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "protocol/action.hpp"
 #include "protocol/chunk_range.hpp"
 #include "protocol/edit.hpp"
 #include "protocol/json_text.hpp"
@@ -170,12 +171,12 @@ struct Presence {
   std::vector<UserCursor> cursors;  ///< Those that moved.
   friend bool operator==(const Presence&, const Presence&) = default;
 };
-/// An accepted edit.
+/// What was accepted.
 struct Event {
   std::uint64_t seq = 0;
   std::int64_t time_ms = 0;  ///< Since 1970, UTC.
   std::string author;        ///< 16 hex digits, as of User.
-  Edit edit;                 ///< Written as kind "edit" and the edit's fields.
+  Action action;             ///< Written as its kind and fields.
   std::string hash;          ///< Of the map after it; 16 hex digits.
   friend bool operator==(const Event&, const Event&) = default;
 };

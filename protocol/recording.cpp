@@ -47,14 +47,12 @@ Result<RecordedEvent> read_recorded_event(std::string_view line) {
                       .time_ms = in.integer("time", {-kMaxInteger, kMaxInteger}),
                       .author = read_u64(in, "author"),
                       .id = read_id(in),
-                      .edit = {},
+                      .action = {},
                       .hash = read_u64(in, "hash")};
-  if (in.has("kind") && in.text("kind") != "edit")
-    in.refuse(Code::not_supported, "kind", "is not known here");
   if (in.failed()) return in.result(std::move(event));
-  auto edit = read_edit(*object);
-  if (!edit) return tl::unexpected<Failure>(std::move(edit.error()));
-  event.edit = std::move(*edit);
+  auto action = read_action(*object);
+  if (!action) return tl::unexpected<Failure>(std::move(action.error()));
+  event.action = std::move(*action);
   return event;
 }
 
@@ -66,12 +64,9 @@ std::string write(const RecordingHead& head) {
 }
 
 std::string write(const RecordedEvent& event) {
-  ordered_json line{{"seq", event.seq},
-                    {"time", event.time_ms},
-                    {"author", hex(event.author)},
-                    {"id", event.id},
-                    {"kind", "edit"}};
-  write_edit(event.edit, line);
+  ordered_json line{
+      {"seq", event.seq}, {"time", event.time_ms}, {"author", hex(event.author)}, {"id", event.id}};
+  write_action(event.action, line);
   line["hash"] = hex(event.hash);
   return text(line);
 }

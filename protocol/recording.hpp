@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/edit.hpp"
+#include "protocol/action.hpp"
 #include "protocol/messages.hpp"
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
@@ -20,13 +20,13 @@ struct RecordingHead {
   friend bool operator==(const RecordingHead&, const RecordingHead&) = default;
 };
 
-/// What an `event` message has, and the id that its author gave the edit.
+/// What an `event` message has, and the id that its author gave it.
 struct RecordedEvent {
   std::uint64_t seq = 0;     ///< From 1 on.
   std::int64_t time_ms = 0;  ///< Since 1970, UTC.
   std::uint64_t author = 0;
   MessageId id = 0;
-  Edit edit;
+  Action action;
   std::uint64_t hash = 0;  ///< Of the map after it.
   friend bool operator==(const RecordedEvent&, const RecordedEvent&) = default;
 };

@@ -26,7 +26,12 @@ std::string_view take_line(std::string_view& text) {
 
 bool has_a_field_of_an_edit(const JsonFields& line) {
   constexpr std::array kFields{"stencil", "fill", "x", "y", "path", "radius", "layer", "stroke"};
-  return std::ranges::any_of(kFields, [&](const char* field) { return line.has(field); });
+  return std::any_of(kFields.begin(), kFields.end(),
+                     [&](const char* field) { return line.has(field); });
+}
+
+ScriptLine as_line(Action&& action) {
+  return std::visit([](auto&& asked) { return ScriptLine(std::move(asked)); }, std::move(action));
 }
 
 /// Adds what `line` holds to `script`.
@@ -35,6 +40,8 @@ Result<void> take_step(std::string_view line, Script& script) {
   if (!read) return tl::unexpected<Failure>(std::move(read.error()));
   if (auto* edit = std::get_if<Edit>(&*read)) {
     script.steps.emplace_back(std::move(*edit));
+  } else if (auto* change = std::get_if<LayerChange>(&*read)) {
+    script.steps.emplace_back(std::move(*change));
   } else if (const auto* wait = std::get_if<Wait>(&*read)) {
     script.steps.emplace_back(*wait);
   } else if (!std::holds_alternative<Note>(*read)) {
@@ -53,12 +60,12 @@ Result<ScriptLine> read_script_line(std::string_view line) {
   JsonFields in(*json, {}, Code::bad_message);
   if (in.has("map"))
     return read_settings((*json)["map"]).map([](auto&& s) { return ScriptLine(s); });
-  if (in.has("stencil")) return read_edit(*json).map([](auto&& e) { return ScriptLine(e); });
+  if (in.has("stencil") || in.has("kind")) return read_action(*json).map(as_line);
   if (in.has("wait_ms")) return in.result<ScriptLine>(Wait{in.integer("wait_ms", {0, kMaxWaitMs})});
   if (in.has("generate"))
     in.refuse(Code::not_supported, "generate", "generators are not offered");
   else if (has_a_field_of_an_edit(in))
-    in.refuse(Failure{Code::bad_message, "not a line with map, stencil or wait_ms", {}});
+    in.refuse(Failure{Code::bad_message, "not a line with map, stencil, wait_ms or kind", {}});
   return in.result<ScriptLine>(Note{});
 }
 

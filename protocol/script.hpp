@@ -1,4 +1,4 @@
-/// An edit script: JSON lines, a map's settings first and then edits and waits.
+/// An edit script: JSON lines, a map's settings first and then edits, changes of layers and waits.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "protocol/action.hpp"
 #include "protocol/edit.hpp"
+#include "protocol/layer_change.hpp"
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
 
@@ -24,8 +26,8 @@ struct Note {
   friend bool operator==(const Note&, const Note&) = default;
 };
 
-using ScriptStep = std::variant<Edit, Wait>;
-using ScriptLine = std::variant<MapSettings, Edit, Wait, Note>;
+using ScriptStep = std::variant<Edit, LayerChange, Wait>;
+using ScriptLine = std::variant<MapSettings, Edit, LayerChange, Wait, Note>;
 
 struct Script {
   std::optional<MapSettings> settings;  ///< None when the first line is not settings.
@@ -33,9 +35,10 @@ struct Script {
   friend bool operator==(const Script&, const Script&) = default;
 };
 
-/// One line, not blank, with or without its line break: an object with "map", "stencil" or
-/// "wait_ms", or one with unknown keys alone, which is a note. Unknown keys are ignored; other keys
-/// of an edit without "stencil" are bad_message. The line obeys the limits of a control message.
+/// One line, not blank, with or without its line break: an object with "map", "stencil", "wait_ms"
+/// or of kind "layer", or one with unknown keys alone, which is a note. Unknown keys are ignored;
+/// other keys of an edit without "stencil" are bad_message, and a kind that is not known is
+/// not_supported. The line obeys the limits of a control message.
 [[nodiscard]] Result<ScriptLine> read_script_line(std::string_view line);
 
 /// A whole script. Blank lines and notes are skipped; settings stand on the first other line, or

@@ -90,13 +90,13 @@ Result<ServerMessage> read_event(JsonFields& in, const json& object) {
   Event event{.seq = read_seq(in, "seq", 1),
               .time_ms = in.integer("time", {-kMaxInteger, kMaxInteger}),
               .author = in.hex_digits("author", kAuthorDigits),
-              .edit = {},
+              .action = {},
               .hash = in.hex_digits("hash", kHashDigits)};
-  if (in.text("kind") != "edit") in.refuse(Code::not_supported, "kind", "is not known here");
+  static_cast<void>(in.text("kind"));  // here it must be said
   if (in.failed()) return in.result<ServerMessage>(std::move(event));
-  auto edit = read_edit(object);
-  if (!edit) return tl::unexpected<Failure>(std::move(edit.error()));
-  event.edit = std::move(*edit);
+  auto action = read_action(object);
+  if (!action) return tl::unexpected<Failure>(std::move(action.error()));
+  event.action = std::move(*action);
   return ServerMessage(std::move(event));
 }
 
@@ -195,8 +195,7 @@ struct Writer {
     out["seq"] = event.seq;
     out["time"] = event.time_ms;
     out["author"] = event.author;
-    out["kind"] = "edit";
-    write_edit(event.edit, out);
+    write_action(event.action, out);
     out["hash"] = event.hash;
     return "event";
   }

@@ -85,7 +85,10 @@ class Painter {
         pause(early);
       } else {
         ++next_step_;
-        send(std::get<protocol::Edit>(step));
+        if (const auto* edit = std::get_if<protocol::Edit>(&step))
+          send(*edit);
+        else
+          send(std::get<protocol::LayerChange>(step));
       }
     }
   }
@@ -99,10 +102,11 @@ class Painter {
     });
   }
 
-  void send(const protocol::Edit& edit) {
+  template <class Asked>
+  void send(const Asked& asked) {
     const Clock::time_point now = Clock::now();
     ++report_.edits;
-    const auto id = membership_->edit(edit);
+    const auto id = membership_->edit(asked);
     if (!id) return refuse(report_.edits, id.error());
     in_flight_.emplace(*id, InFlight{.number = report_.edits, .since = now});
     if (options_.edits_per_second) {

@@ -1,5 +1,5 @@
-/// Sends edits to a map and waits for the answers, a bounded number of them at a time; when the
-/// connection breaks, over another one.
+/// Sends edits, and changes of layers, to a map and waits for the answers, a bounded number of them
+/// at a time; when the connection breaks, over another one.
 #pragma once
 
 #include <chrono>
@@ -27,7 +27,8 @@ struct PaintOptions {
 };
 
 struct PaintReport {
-  std::uint64_t edits = 0;     ///< Sent, or to be sent over the next connection.
+  /// Changes of layers too: sent, or to be sent over the next connection.
+  std::uint64_t edits = 0;
   std::uint64_t acked = 0;     ///< Of those, applied.
   std::uint64_t rejected = 0;  ///< Of those, refused by the server, or too long to be sent.
   double seconds = 0;          ///< From the answer to the first join to the last answer.

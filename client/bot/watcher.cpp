@@ -65,6 +65,8 @@ class Watcher {
     if (const auto* caught_up = std::get_if<protocol::CaughtUp>(&message)) {
       report_.scene.catch_up(caught_up->n, caught_up->seq);
       end_if_complete();
+    } else if (const auto* changed = std::get_if<protocol::SettingsChanged>(&message)) {
+      report_.settings = changed->settings;
     } else if (const auto* rejected = std::get_if<protocol::Rejected>(&message)) {
       if (membership_->joined()) give_up(rejected->failure);  // a join that is refused ends it
     }

@@ -16,6 +16,10 @@ std::uint64_t random_seed() {
   return (std::uint64_t{device()} << 32) | device();
 }
 
+tl::unexpected<Failure> ended_already() {
+  return protocol::fail(Code::bad_state, "the part in the map has ended");
+}
+
 }  // namespace
 
 Membership::Membership(EventLoop& loop, MembershipOptions options, MembershipHandlers handlers)
@@ -47,8 +51,17 @@ void Membership::connect() {
 }
 
 protocol::Result<protocol::MessageId> Membership::edit(const protocol::Edit& edit) {
-  if (closing_) return protocol::fail(Code::bad_state, "the part in the map has ended");
-  const auto added = resume_.add(edit);
+  if (closing_) return ended_already();
+  return send_kept(resume_.add(edit));
+}
+
+protocol::Result<protocol::MessageId> Membership::edit(const protocol::LayerChange& change) {
+  if (closing_) return ended_already();
+  return send_kept(resume_.add(change));
+}
+
+protocol::Result<protocol::MessageId> Membership::send_kept(
+    const protocol::Result<Unanswered::Kept>& added) {
   if (!added) return tl::unexpected<Failure>(added.error());
   if (live_) say(std::string(added->message));
   return added->id;

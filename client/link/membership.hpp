@@ -57,6 +57,8 @@ class Membership {
   /// Sends an edit, as soon as there is a connection, and gives it its id: 1, 2, 3 ..., or from
   /// `last_id` on. Fails as `Unanswered::add` does, and with bad_state once it is closed.
   [[nodiscard]] protocol::Result<protocol::MessageId> edit(const protocol::Edit& edit);
+  /// The same with a change of layers, in the one order of both.
+  [[nodiscard]] protocol::Result<protocol::MessageId> edit(const protocol::LayerChange& change);
   /// Asks for this view, now and after every time the map is joined. Its `have` is not used.
   void look(const protocol::View& view);
   /// Sends anything else, which must be without an id, once. Fails with bad_state while no map is
@@ -82,6 +84,7 @@ class Membership {
   void connect();
   void take(const protocol::ServerMessage& message);
   void enter();
+  protocol::Result<protocol::MessageId> send_kept(const protocol::Result<Unanswered::Kept>& added);
   void say(std::string text);
   void link_closed(const Closing& closing);
   void hand_back(const std::vector<Answer>& answers);

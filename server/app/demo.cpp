@@ -80,6 +80,7 @@ class Painter final : public room::Viewer {
   void answered(std::vector<room::Reply>) override {}
   void deliver(room::Parcel) override {}
   void tell(room::Talk) override {}
+  void settings(room::SharedText) override {}
   void end(protocol::Bye) override {}
 };
 
@@ -90,7 +91,7 @@ void paint(room::Room& room) {
   protocol::MessageId id = 0;
   for (Edit& edit : demo_edits()) {
     [[maybe_unused]] const auto taken =
-        room.submit(entrance->viewer, {.id = ++id, .author = 0, .edit = std::move(edit)});
+        room.submit(entrance->viewer, {.id = ++id, .author = 0, .action = std::move(edit)});
   }
   room.leave(entrance->viewer);
 }

@@ -51,17 +51,17 @@ Result<Shown> export_bytes(const StoredMap& stored, Format format, const MapFlag
                            NewFile& out) {
   const auto restored = salvage(stored, flags.seq);
   if (!restored) return tl::unexpected<Failure>(restored.error());
-  const auto bytes = format == Format::glb ? glb_of(*restored, stored.journal->identity().settings)
-                                           : png_of(*restored, flags.layer.value_or(0));
+  const auto bytes =
+      format == Format::glb ? glb_of(*restored) : png_of(*restored, flags.layer.value_or(0));
   if (!bytes) return tl::unexpected<Failure>(bytes.error());
   return out.write(*bytes).map([&restored] { return Shown{restored->seq, restored->hash}; });
 }
 
 }  // namespace
 
-Result<std::string> glb_of(const journal::Restored& restored,
-                           const protocol::MapSettings& settings) {
-  return net::make_glb(settings, mesh_whole(restored.map, settings, restored.seq).records());
+Result<std::string> glb_of(const journal::Restored& restored) {
+  const auto meshes = mesh_whole(restored.map, restored.settings, restored.seq);
+  return net::make_glb(restored.settings, meshes.records());
 }
 
 Result<std::string> png_of(const journal::Restored& restored, std::uint64_t layer) {

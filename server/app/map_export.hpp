@@ -14,8 +14,7 @@
 namespace earthwork::app {
 
 /// The bytes of the server's export.glb of the same map. Fails as net::make_glb does.
-[[nodiscard]] protocol::Result<std::string> glb_of(const journal::Restored& restored,
-                                                   const protocol::MapSettings& settings);
+[[nodiscard]] protocol::Result<std::string> glb_of(const journal::Restored& restored);
 /// The bytes of the server's states.png. Fails as room::draw_states and net::encode_png do.
 [[nodiscard]] protocol::Result<std::string> png_of(const journal::Restored& restored,
                                                    std::uint64_t layer);

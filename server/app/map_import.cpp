@@ -42,8 +42,7 @@ class Import {
   Result<void> take(std::string_view line) {
     auto recorded = protocol::read_recorded_event(line);
     if (!recorded) return tl::unexpected<Failure>(std::move(recorded.error()));
-    if (auto checked = check_edit(recorded->edit, journal_.identity().settings); !checked)
-      return checked;
+    if (auto checked = check_action(recorded->action, executed_.settings); !checked) return checked;
     waiting_.push_back(from_recorded(std::move(*recorded)));
     return executed_.apply(waiting_.back());
   }

@@ -44,7 +44,8 @@ ordered_json listed(const DataDirectory& folder, const std::string& name) {
   return line;
 }
 
-ordered_json figures_of(const journal::Restored& restored, const protocol::MapSettings& settings) {
+ordered_json figures_of(const journal::Restored& restored) {
+  const protocol::MapSettings& settings = restored.settings;
   const room::MeshCache meshes = mesh_whole(restored.map, settings, restored.seq);
   return net::write_figures(
       {.seq = restored.seq,
@@ -56,14 +57,15 @@ ordered_json figures_of(const journal::Restored& restored, const protocol::MapSe
       settings.chunk_resolution);
 }
 
-ordered_json described(const StoredMap& stored, std::uint64_t events,
+ordered_json described(const StoredMap& stored, const journal::Restored& restored,
                        const std::vector<journal::Keyframe>& keyframes) {
   const journal::Identity& identity = stored.journal->identity();
+  const std::uint64_t events = restored.seq;
   const std::uint64_t bytes = file_bytes(stored.path);
   ordered_json seqs = ordered_json::array();
   for (const journal::Keyframe& keyframe : keyframes) seqs.push_back(keyframe.seq);
   return {{"name", stored.name},
-          {"settings", protocol::write_settings(identity.settings)},
+          {"settings", protocol::write_settings(restored.settings)},
           {"epoch", hex(identity.epoch)},
           {"created_ms", identity.created_ms},
           {"events", events},
@@ -126,8 +128,8 @@ int show_map(const MapFlags& flags) {
   if (!restored) return refuse(restored.error());
   const auto keyframes = stored->journal->keyframes();
   ordered_json line =
-      described(*stored, restored->seq, keyframes.value_or(std::vector<journal::Keyframe>{}));
-  line.update(figures_of(*restored, stored->journal->identity().settings));
+      described(*stored, *restored, keyframes.value_or(std::vector<journal::Keyframe>{}));
+  line.update(figures_of(*restored));
   return answer(line);
 }
 

@@ -9,7 +9,7 @@ protocol::RecordedEvent to_recorded(const history::Event& event) {
           .time_ms = event.time_ms,
           .author = event.author,
           .id = event.id,
-          .edit = event.edit,
+          .action = event.action,
           .hash = event.hash};
 }
 
@@ -18,7 +18,7 @@ history::Event from_recorded(protocol::RecordedEvent event) {
           .time_ms = event.time_ms,
           .author = event.author,
           .id = event.id,
-          .edit = std::move(event.edit),
+          .action = std::move(event.action),
           .hash = event.hash};
 }
 

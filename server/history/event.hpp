@@ -1,12 +1,12 @@
-/// An accepted edit: its number in the map's one order, when it came, from whom, and what the map
-/// was after it.
+/// What a map accepted: its number in the map's one order, when it came, from whom, and what the
+/// map was after it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 
-#include "protocol/edit.hpp"
+#include "protocol/action.hpp"
 #include "server/voxel/map.hpp"
 
 namespace earthwork::history {
@@ -15,8 +15,8 @@ struct Event {
   std::uint64_t seq = 0;     ///< 1, 2, 3 ... without gaps.
   std::int64_t time_ms = 0;  ///< Since 1970, UTC.
   std::uint64_t author = 0;  ///< Names a key without giving it away.
-  std::int64_t id = 0;       ///< The author's own number of it: with it, the edit is known again.
-  protocol::Edit edit;
+  std::int64_t id = 0;       ///< The author's own number of it: with it, it is known again.
+  protocol::Action action;
   std::uint64_t hash = 0;  ///< voxel::Map::hash() after it.
 };
 

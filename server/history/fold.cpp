@@ -40,4 +40,11 @@ const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit) {
   return map.apply(static_cast<int>(edit.layer), stencils(edit));
 }
 
+const voxel::Change& apply(voxel::Map& map, const protocol::Action& action) {
+  static const voxel::Change kNone;
+  if (const auto* edit = std::get_if<protocol::Edit>(&action)) return apply(map, *edit);
+  if (!std::get<protocol::LayerChange>(action).layer) map.set_layers(map.grid().layers + 1);
+  return kNone;
+}
+
 }  // namespace earthwork::history

@@ -1,8 +1,9 @@
-/// From commands to a map: the one place where a protocol edit becomes voxels.
+/// From commands to a map: the one place where a protocol action becomes voxels.
 #pragma once
 
 #include <vector>
 
+#include "protocol/action.hpp"
 #include "protocol/edit.hpp"
 #include "protocol/settings.hpp"
 #include "server/voxel/map.hpp"
@@ -19,5 +20,8 @@ namespace earthwork::history {
 /// Applies an edit that `protocol::check_edit` accepted, now or when it was recorded. The result is
 /// valid until the map's next edit.
 const voxel::Change& apply(voxel::Map& map, const protocol::Edit& edit);
+/// The same of whatever was accepted. A change of layers changes no voxel: it may give the map one
+/// layer more.
+const voxel::Change& apply(voxel::Map& map, const protocol::Action& action);
 
 }  // namespace earthwork::history

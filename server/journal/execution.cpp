@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "protocol/chunk_record.hpp"
 #include "protocol/limits.hpp"
@@ -31,22 +32,29 @@ bool ever_acceptable(const protocol::Edit& edit, double voxel_size) {
   return true;
 }
 
+protocol::Result<void> check(const protocol::Action& action,
+                             const protocol::MapSettings& settings) {
+  if (auto checked = protocol::check_layers(action, settings); !checked) return checked;
+  const auto* edit = std::get_if<protocol::Edit>(&action);
+  if (!edit || ever_acceptable(*edit, settings.voxel_size)) return {};
+  return protocol::fail(protocol::Code::damaged, "an edit beyond all limits");
+}
+
 }  // namespace
 
-Execution::Execution(const protocol::MapSettings& settings) : map(history::make_map(settings)) {}
+Execution::Execution(protocol::MapSettings at_first)
+    : settings(std::move(at_first)), map(history::make_map(settings)) {}
 
 protocol::Result<void> Execution::apply(const history::Event& event) {
   if (event.seq != seq + 1) return damaged(event.seq, std::to_string(seq + 1) + " comes next");
-  if (event.edit.layer >= static_cast<std::uint32_t>(map.grid().layers))
-    return damaged(event.seq, "layer " + std::to_string(event.edit.layer) + " of a map with " +
-                                  std::to_string(map.grid().layers));
-  if (!ever_acceptable(event.edit, map.grid().voxel_size))
-    return damaged(event.seq, "an edit beyond all limits");
+  if (auto possible = check(event.action, settings); !possible)
+    return damaged(event.seq, possible.error().detail);
   if (!authors.add(event.author, {event.id, event.seq}))
     return damaged(event.seq, "id " + std::to_string(event.id) +
                                   " is not above the last of author " +
                                   protocol::hex(event.author));
-  const voxel::Change& change = history::apply(map, event.edit);
+  protocol::apply(event.action, settings);
+  const voxel::Change& change = history::apply(map, event.action);
   ages.changed(change.changed, event.seq);
   seq = event.seq;
   hash = map.hash();

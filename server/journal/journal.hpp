@@ -1,8 +1,8 @@
 /// What a map needs to outlive the process that serves it: its log of events, and now and then the
 /// state of its chunks, so that a start does not repeat the whole log.
 ///
-/// The log is the truth. A keyframe - chunks, and what is remembered of authors, as of one seq - is
-/// made from it and can be made again.
+/// The log is the truth. A keyframe - chunks, settings, and what is remembered of authors, as of
+/// one seq - is made from it and can be made again.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ namespace earthwork::journal {
 
 /// What is fixed when a map is created.
 struct Identity {
-  protocol::MapSettings settings;
+  protocol::MapSettings settings;  ///< Before the first event.
   std::uint64_t epoch = 0;
   std::int64_t created_ms = 0;  ///< Since 1970, UTC.
   friend bool operator==(const Identity&, const Identity&) = default;
@@ -55,8 +55,9 @@ struct AuthorState {
 /// With it, the chunk states up to `seq` are all there are: what it names has been put.
 struct Keyframe {
   std::uint64_t seq = 0;
-  std::uint64_t map_hash = 0;  ///< voxel::Map::hash() as of `seq`.
-  std::int64_t time_ms = 0;    ///< When it was made.
+  std::uint64_t map_hash = 0;      ///< voxel::Map::hash() as of `seq`.
+  std::int64_t time_ms = 0;        ///< When it was made.
+  protocol::MapSettings settings;  ///< As of `seq`.
   friend bool operator==(const Keyframe&, const Keyframe&) = default;
 };
 

@@ -59,6 +59,8 @@ Result<bool> check_keyframe(Journal& journal, const Keyframe& keyframe, const Ex
     findings.add("keyframes", keyframe.seq,
                  "the stored hash is " + protocol::hex(keyframe.map_hash) + ", executed it is " +
                      protocol::hex(executed.hash));
+  if (keyframe.settings != executed.settings)
+    findings.add("keyframes", keyframe.seq, "its settings are not what the log gives");
   ChunkCheck check(keyframe.seq, executed, findings);
   auto told = journal.chunks(keyframe.seq, [&check](const ChunkState& state) -> Result<void> {
     check.look_at(state);

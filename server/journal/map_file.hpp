@@ -11,19 +11,21 @@
 ///     since 1970, decimal; sum: 16 hex digits, over key and value of the others in the order of
 ///     their keys.
 ///
-/// events(seq, time_ms, author, id, command, hash)
-///     seq: 1, 2, 3 ... without gaps. command: the edit's fields as JSON, as protocol::write_edit
-///     gives them; a "kind" other than "edit" is for later versions. hash: the map's after it.
+/// events(seq, time_ms, author, id, kind, command, hash)
+///     seq: 1, 2, 3 ... without gaps. kind: "edit" or "layer"; another one is for later versions.
+///     command: its fields as JSON, as protocol::write_fields gives them. hash: the map's after it.
 ///
 /// batches(first_seq, last_seq, sum)
 ///     What was committed together; they follow each other without gaps and end with the last
-///     event. sum: over its events in order, of each one seq, time_ms, author, id, command, hash.
+///     event. sum: over its events in order, of each one seq, time_ms, author, id, kind, command,
+///     hash.
 ///
-/// keyframes(seq, map_hash, time_ms, chunks, digest, authors, sum)
+/// keyframes(seq, map_hash, time_ms, chunks, digest, authors, settings, sum)
 ///     map_hash: after event seq. time_ms: when it was made. chunks: how many chunks have a state
 ///     up to seq; digest: the sums of the newest of each one's, XORed. authors: how many there
-///     were. sum: over the columns before it. Kept are the newest keyframe, and older ones at
-///     least 65,536 events apart.
+///     were. settings: as of seq, JSON like those of meta, which are those before the first event.
+///     sum: over the columns before it. Kept are the newest keyframe, and older ones at least
+///     65,536 events apart.
 ///
 /// chunks(layer, place, seq, bytes, sum)
 ///     The state of a chunk since event seq or longer, up to the next row of the same layer and
@@ -36,7 +38,7 @@
 ///
 /// For example, who painted how much, and what the last edits were:
 ///     SELECT printf('%016x', author), count(*) FROM events GROUP BY author;
-///     SELECT seq, datetime(time_ms / 1000, 'unixepoch'), command FROM events
+///     SELECT seq, datetime(time_ms / 1000, 'unixepoch'), kind, command FROM events
 ///       ORDER BY seq DESC LIMIT 5;
 ///
 /// Nothing but the log is needed: keyframes, chunks and authors, emptied together, are made again.

@@ -6,6 +6,7 @@
 #include "server/journal/author_ids.hpp"
 #include "server/journal/kept_keyframes.hpp"
 #include "server/journal/keyframe_row.hpp"
+#include "server/journal/settings_text.hpp"
 #include "server/journal/stored_sum.hpp"
 
 namespace earthwork::journal {
@@ -17,10 +18,12 @@ using protocol::Failure;
 using protocol::Result;
 
 constexpr const char* kSelectKeyframes =
-    "SELECT seq, map_hash, time_ms, chunks, digest, authors, sum FROM keyframes "
+    "SELECT seq, map_hash, time_ms, chunks, digest, authors, settings, sum FROM keyframes "
     "WHERE seq >= ? ORDER BY seq";
 
-std::uint64_t sum_of(const KeyframeRow& row) {
+constexpr std::string_view kKeyframeColumns = "iiiiiiti";
+
+std::uint64_t sum_of(const KeyframeRow& row, std::string_view settings) {
   return StoredSum()
       .add(row.keyframe.seq)
       .add(row.keyframe.map_hash)
@@ -28,6 +31,7 @@ std::uint64_t sum_of(const KeyframeRow& row) {
       .add(row.chunks)
       .add(row.digest)
       .add(row.authors)
+      .add(settings)
       .value();
 }
 
@@ -37,15 +41,21 @@ std::uint64_t sum_of(std::uint64_t author, std::span<const std::byte> ids) {
 
 /// Of a statement of kSelectKeyframes, on a row.
 Result<KeyframeRow> keyframe_of(const Database& database, const Statement& rows) {
-  if (!rows.row_is("iiiiiii") || rows.integer(0) < 1)
+  if (!rows.row_is(kKeyframeColumns) || rows.integer(0) < 1)
     return database.damaged("keyframes", 0, "a row is none of ours");
-  const KeyframeRow row{
-      .keyframe = {.seq = rows.number(0), .map_hash = rows.number(1), .time_ms = rows.integer(2)},
-      .chunks = rows.number(3),
-      .digest = rows.number(4),
-      .authors = rows.number(5)};
-  if (rows.number(6) != sum_of(row))
+  KeyframeRow row{.keyframe = {.seq = rows.number(0),
+                               .map_hash = rows.number(1),
+                               .time_ms = rows.integer(2),
+                               .settings = {}},
+                  .chunks = rows.number(3),
+                  .digest = rows.number(4),
+                  .authors = rows.number(5)};
+  if (rows.number(7) != sum_of(row, rows.text(6)))
     return database.damaged("keyframes", row.keyframe.seq, "the sum is another");
+  auto settings = settings_of(rows.text(6));
+  if (!settings)
+    return database.damaged("keyframes", row.keyframe.seq, "settings: " + settings.error().detail);
+  row.keyframe.settings = std::move(*settings);
   return row;
 }
 
@@ -67,7 +77,8 @@ Result<KeyframeRow> find_keyframe(Database& database, std::uint64_t seq) {
   Statement find(database, "keyframes", kSelectKeyframes);
   const auto row = find.begin(seq).next();
   if (!row) return tl::unexpected<Failure>(row.error());
-  if (*row && find.row_is("iiiiiii") && find.number(0) == seq) return keyframe_of(database, find);
+  if (*row && find.row_is(kKeyframeColumns) && find.number(0) == seq)
+    return keyframe_of(database, find);
   return fail(Code::bad_state,
               database.name() + ": there is no keyframe of event " + std::to_string(seq));
 }
@@ -92,13 +103,14 @@ Result<void> put_keyframe_row(Database& database, const Keyframe& keyframe) {
     row = *before;
   }
   row.keyframe = keyframe;
+  const std::string settings = text_of(keyframe.settings);
   if (auto counted = count_chunks(database, *newest, row); !counted) return counted;
   const auto authors = database.integer("SELECT count(*) FROM authors");
   if (!authors) return tl::unexpected<Failure>(authors.error());
   row.authors = static_cast<std::uint64_t>(*authors);
-  return Statement(database, "keyframes", "INSERT INTO keyframes VALUES(?, ?, ?, ?, ?, ?, ?)")
+  return Statement(database, "keyframes", "INSERT INTO keyframes VALUES(?, ?, ?, ?, ?, ?, ?, ?)")
       .run(keyframe.seq, keyframe.map_hash, keyframe.time_ms, row.chunks, row.digest, row.authors,
-           sum_of(row));
+           std::string_view(settings), sum_of(row, settings));
 }
 
 Result<std::vector<AuthorState>> read_authors(Database& database) {

@@ -20,13 +20,13 @@ using protocol::Failure;
 using protocol::Result;
 
 constexpr std::size_t kMaxCommandBytes = std::size_t{1} << 20;
-constexpr std::size_t kEventBytes = 48;  // of a row beside its command, its batch included
+constexpr std::size_t kEventBytes = 54;  // of a row beside its command, its batch included
 constexpr const char* kInsertBatch = "INSERT INTO batches VALUES(?, ?, ?)";
 
 /// A row of events before its command is understood.
 struct EventRow {
   Event event;
-  std::string_view command;
+  std::string_view kind, command;
 };
 
 struct BatchRow {
@@ -36,32 +36,33 @@ struct BatchRow {
 /// The sum of a batch, over its events in order.
 class BatchSum {
  public:
-  void add(const Event& event, std::string_view command) {
-    sum_.add(event.seq).add(event.time_ms).add(event.author).add(event.id).add(command);
-    sum_.add(event.hash);
+  void add(const Event& event, std::string_view kind, std::string_view command) {
+    sum_.add(event.seq).add(event.time_ms).add(event.author).add(event.id).add(kind);
+    sum_.add(command).add(event.hash);
   }
+  void add(const EventRow& row) { add(row.event, row.kind, row.command); }
   std::uint64_t value() const { return sum_.value(); }
 
  private:
   StoredSum sum_;
 };
 
-std::string command_of(const protocol::Edit& edit) {
+std::string command_of(const protocol::Action& action) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  protocol::write_edit(edit, json);
+  protocol::write_fields(action, json);
   return json.dump();
 }
 
-Result<protocol::Edit> read_command(const Database& database, std::uint64_t seq,
-                                    std::string_view command) {
-  const auto json = protocol::parse_json(command, kMaxCommandBytes);
+Result<protocol::Action> read_command(const Database& database, const EventRow& row) {
+  const std::uint64_t seq = row.event.seq;
+  const auto json = protocol::parse_json(row.command, kMaxCommandBytes);
   if (!json) return database.damaged("events", seq, "command: " + json.error().detail);
-  if (json->is_object() && json->contains("kind") && (*json)["kind"] != "edit")
+  auto action = protocol::read_action(*json, row.kind);
+  if (action) return action;
+  if (action.error().code == Code::not_supported)
     return fail(Code::bad_version, database.name() + ": events: seq " + std::to_string(seq) +
                                        ": a command of a kind that this program does not know");
-  auto edit = protocol::read_edit(*json);
-  if (!edit) return database.damaged("events", seq, "command: " + edit.error().detail);
-  return edit;
+  return database.damaged("events", seq, "command: " + action.error().detail);
 }
 
 /// Rows of events from a seq on, which must have no gap.
@@ -70,7 +71,7 @@ class EventRows {
   EventRows(const Database& database, std::uint64_t from)
       : database_(database),
         rows_(database, "events",
-              "SELECT seq, time_ms, author, id, command, hash FROM events WHERE seq >= ? "
+              "SELECT seq, time_ms, author, id, kind, command, hash FROM events WHERE seq >= ? "
               "ORDER BY seq"),
         next_(from) {
     rows_.begin(from);
@@ -80,15 +81,16 @@ class EventRows {
     const auto row = rows_.next();
     if (!row) return tl::unexpected<Failure>(row.error());
     const std::uint64_t seq = next_++;
-    if (!*row || !rows_.row_is("iiiiti") || rows_.number(0) != seq)
+    if (!*row || !rows_.row_is("iiiitti") || rows_.number(0) != seq)
       return database_.damaged("events", seq, "the row is missing, or is none of ours");
     return EventRow{.event = {.seq = seq,
                               .time_ms = rows_.integer(1),
                               .author = rows_.number(2),
                               .id = rows_.integer(3),
-                              .edit = {},
-                              .hash = rows_.number(5)},
-                    .command = rows_.text(4)};
+                              .action = {},
+                              .hash = rows_.number(6)},
+                    .kind = rows_.text(4),
+                    .command = rows_.text(5)};
   }
 
  private:
@@ -137,11 +139,11 @@ Result<void> read_batch(const Database& database, const BatchRow& batch, EventRo
   for (std::uint64_t seq = batch.first; seq <= batch.last; ++seq) {
     auto row = rows.next();
     if (!row) return tl::unexpected<Failure>(std::move(row.error()));
-    sum.add(row->event, row->command);
+    sum.add(*row);
     if (seq < page.from || page.full || !page.takes(*row)) continue;
-    auto edit = read_command(database, seq, row->command);
-    if (!edit) return tl::unexpected<Failure>(std::move(edit.error()));
-    row->event.edit = std::move(*edit);
+    auto action = read_command(database, *row);
+    if (!action) return tl::unexpected<Failure>(std::move(action.error()));
+    row->event.action = std::move(*action);
     page.events.push_back(std::move(row->event));
   }
   if (sum.value() == batch.sum) return {};
@@ -168,18 +170,19 @@ Result<void> append_batch(Database& database, std::uint64_t expected_seq,
   if (*last != expected_seq)
     return fail(Code::bad_state, database.name() + ": the last event is " + std::to_string(*last) +
                                      ", not " + std::to_string(expected_seq));
-  Statement insert(database, "events", "INSERT INTO events VALUES(?, ?, ?, ?, ?, ?)");
+  Statement insert(database, "events", "INSERT INTO events VALUES(?, ?, ?, ?, ?, ?, ?)");
   BatchSum sum;
   std::uint64_t seq = expected_seq;
   for (const Event& event : events) {
     assert(event.seq == seq + 1);
     seq = event.seq;
-    const std::string command = command_of(event.edit);
-    if (auto done = insert.run(event.seq, event.time_ms, event.author, event.id,
+    const std::string_view kind = protocol::kind(event.action);
+    const std::string command = command_of(event.action);
+    if (auto done = insert.run(event.seq, event.time_ms, event.author, event.id, kind,
                                std::string_view(command), event.hash);
         !done)
       return done;
-    sum.add(event, command);
+    sum.add(event, kind, command);
   }
   return Statement(database, "batches", kInsertBatch).run(expected_seq + 1, seq, sum.value());
 }
@@ -260,7 +263,7 @@ Result<void> cut_log(Database& database, std::uint64_t seq) {
     for (std::uint64_t at = batch->first; at <= seq; ++at) {
       const auto row = kept.next();
       if (!row) return tl::unexpected<Failure>(row.error());
-      sum.add(row->event, row->command);
+      sum.add(*row);
     }
     rest = {.first = batch->first, .last = seq, .sum = sum.value()};
   }

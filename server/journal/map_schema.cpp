@@ -4,11 +4,10 @@
 #include <array>
 #include <charconv>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "protocol/chunk_record.hpp"
-#include "protocol/json_text.hpp"
+#include "server/journal/settings_text.hpp"
 #include "server/journal/stored_sum.hpp"
 
 namespace earthwork::journal {
@@ -23,7 +22,7 @@ using protocol::Result;
 constexpr std::array kSchema = {
     "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
     "CREATE TABLE events(seq INTEGER PRIMARY KEY, time_ms INTEGER NOT NULL, author INTEGER NOT "
-    "NULL, id INTEGER NOT NULL, command TEXT NOT NULL, hash INTEGER NOT NULL)",
+    "NULL, id INTEGER NOT NULL, kind TEXT NOT NULL, command TEXT NOT NULL, hash INTEGER NOT NULL)",
     "CREATE TABLE batches(first_seq INTEGER PRIMARY KEY, last_seq INTEGER NOT NULL, sum INTEGER "
     "NOT NULL)",
     "CREATE TABLE chunks(layer INTEGER NOT NULL, place INTEGER NOT NULL, seq INTEGER NOT NULL, "
@@ -31,8 +30,9 @@ constexpr std::array kSchema = {
     "CREATE INDEX chunks_by_seq ON chunks(seq, layer, place)",
     "CREATE TABLE authors(author INTEGER PRIMARY KEY, ids BLOB NOT NULL, sum INTEGER NOT NULL)",
     "CREATE TABLE keyframes(seq INTEGER PRIMARY KEY, map_hash INTEGER NOT NULL, time_ms INTEGER "
-    "NOT NULL, chunks INTEGER NOT NULL, digest INTEGER NOT NULL, authors INTEGER NOT NULL, sum "
-    "INTEGER NOT NULL)",
+    "NOT NULL, chunks INTEGER NOT NULL, digest INTEGER NOT NULL, authors INTEGER NOT NULL, "
+    "settings "
+    "TEXT NOT NULL, sum INTEGER NOT NULL)",
 };
 
 using Values = std::map<std::string, std::string>;
@@ -112,9 +112,7 @@ Result<Identity> read_identity(Database& database) {
   };
   if (value("sum") != sum_of(*values)) return database.damaged("meta", 0, "the sum is another");
   Identity identity;
-  const auto json = protocol::parse_json(value("settings"), protocol::kMaxServerControlBytes);
-  const auto settings =
-      json ? protocol::read_settings(*json) : tl::unexpected<Failure>(json.error());
+  const auto settings = settings_of(value("settings"));
   if (!settings) return database.damaged("meta", 0, "settings: " + settings.error().detail);
   const auto epoch = protocol::parse_hex(value("epoch"));
   if (!epoch) return database.damaged("meta", 0, "epoch: " + epoch.error().detail);
@@ -131,7 +129,7 @@ Result<Identity> read_identity(Database& database) {
 Result<void> write_identity(Database& database, const Identity& identity) {
   Values values = {{"created_ms", std::to_string(identity.created_ms)},
                    {"epoch", protocol::hex(identity.epoch)},
-                   {"settings", protocol::write_settings(identity.settings).dump()}};
+                   {"settings", text_of(identity.settings)}};
   values["sum"] = sum_of(values);
   Statement put(database, "meta", "INSERT OR REPLACE INTO meta VALUES(?, ?)");
   for (const auto& [key, value] : values)

@@ -19,7 +19,7 @@ using protocol::Result;
 using voxel::ChunkKey;
 
 std::size_t bytes_of(const Event& event) {
-  return sizeof(Event) + event.edit.path.size() * sizeof(protocol::MapPoint);
+  return sizeof(Event) + protocol::points(event.action) * sizeof(protocol::MapPoint);
 }
 
 class MemoryJournal final : public Journal {

@@ -24,6 +24,13 @@ bool fits(const ChunkState& state, const voxel::Grid& grid, std::uint64_t keyfra
          grid.extent().contains(key.x, key.y) && state.chunk.resolution() == grid.resolution;
 }
 
+/// Settings that a map which began with `first` can have come to: layers are added and change.
+bool follow(const protocol::MapSettings& settings, const protocol::MapSettings& first) {
+  protocol::MapSettings with_layers = first;
+  with_layers.layers = settings.layers;
+  return settings == with_layers && settings.layers.size() >= first.layers.size();
+}
+
 Result<AuthorBook> load_authors(Journal& journal, std::uint64_t up_to) {
   auto known = journal.authors();
   if (!known) return tl::unexpected<Failure>(std::move(known.error()));
@@ -40,7 +47,9 @@ Result<AuthorBook> load_authors(Journal& journal, std::uint64_t up_to) {
 }
 
 Result<Execution> load_keyframe(Journal& journal, const Keyframe& keyframe) {
-  Execution loaded(journal.identity().settings);
+  if (!follow(keyframe.settings, journal.identity().settings))
+    return damage(journal.name(), "keyframes", keyframe.seq, "settings that the map cannot have");
+  Execution loaded(keyframe.settings);
   auto authors = load_authors(journal, keyframe.seq);
   if (!authors) return tl::unexpected<Failure>(std::move(authors.error()));
   loaded.authors = std::move(*authors);
@@ -76,6 +85,7 @@ Result<Restored> go_on(Journal& journal, Execution&& start, std::uint64_t target
   });
   if (!executed) return tl::unexpected<Failure>(std::move(executed.error()));
   return Restored{.map = std::move(start.map),
+                  .settings = std::move(start.settings),
                   .seq = start.seq,
                   .hash = start.hash,
                   .ages = start.ages.in_order(),

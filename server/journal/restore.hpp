@@ -13,6 +13,7 @@ namespace earthwork::journal {
 
 struct Restored {
   voxel::Map map;
+  protocol::MapSettings settings;  ///< As of `seq`.
   std::uint64_t seq = 0, hash = 0;
   std::vector<ChunkAge> ages;  ///< Of every chunk that ever held something; in order.
   /// What is to be remembered as of `seq`, in order of the authors. When `seq` is not the last one,

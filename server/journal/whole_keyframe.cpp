@@ -39,7 +39,10 @@ Result<void> put_whole_keyframe(Journal& journal, const Execution& executed, std
   if (last == executed.seq) return {};
   if (auto put = put_chunks_after(journal, executed, last); !put) return put;
   if (auto put = journal.put_authors(executed.authors.states()); !put) return put;
-  return journal.put_keyframe({.seq = executed.seq, .map_hash = executed.hash, .time_ms = time_ms});
+  return journal.put_keyframe({.seq = executed.seq,
+                               .map_hash = executed.hash,
+                               .time_ms = time_ms,
+                               .settings = executed.settings});
 }
 
 }  // namespace earthwork::journal

@@ -126,6 +126,7 @@ void Conversation::handle(const protocol::Leave& leave) {
       self->own_->post([self, id] {
         self->place_ = Place::outside;
         self->room_.reset();
+        self->outbox_.forget_settings();
         self->done(id);
       });
     });
@@ -198,15 +199,12 @@ void Conversation::pointed(std::optional<MessageId> id, const protocol::Result<v
   if (cursors_on_their_way_ == 0 && next_cursor_) point(*std::exchange(next_cursor_, std::nullopt));
 }
 
-void Conversation::handle(protocol::EditMessage& edit) {
-  if (place_ != Place::inside)
-    return reject(edit.id, {Code::bad_state, "join a map first", "type"});
+void Conversation::submit(MessageId id, protocol::Action action) {
+  if (place_ != Place::inside) return reject(id, {Code::bad_state, "join a map first", "type"});
   ++unanswered_;
-  in_room([self = shared_from_this(),
-           command =
-               room::Room::Command{.id = edit.id, .author = author_, .edit = std::move(edit.edit)}](
+  in_room([self = shared_from_this(), id,
+           command = room::Room::Command{.id = id, .author = author_, .action = std::move(action)}](
               room::Room& room, room::ViewerId viewer) mutable {
-    const MessageId id = command.id;
     auto result = room.submit(viewer, std::move(command));
     if (!result) self->own_->post([self, id, result] { self->answered(id, result); });
   });
@@ -343,6 +341,13 @@ void Conversation::deliver(room::Parcel parcel) {
 void Conversation::tell(room::Talk talk) {
   own_->post([self = shared_from_this(), talk = std::move(talk)]() mutable {
     self->outbox_.put(std::move(talk));
+    self->wake_();
+  });
+}
+
+void Conversation::settings(room::SharedText message) {
+  own_->post([self = shared_from_this(), message = std::move(message)]() mutable {
+    self->outbox_.put_settings(std::move(message));
     self->wake_();
   });
 }

@@ -57,6 +57,7 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void answered(std::vector<room::Reply> replies) override;
   void deliver(room::Parcel parcel) override;
   void tell(room::Talk talk) override;
+  void settings(room::SharedText message) override;
   void end(protocol::Bye bye) override;
 
  private:
@@ -66,15 +67,16 @@ class Conversation final : public room::Viewer, public std::enable_shared_from_t
   void handle(protocol::Join& join);
   void handle(const protocol::Leave& leave);
   void handle(protocol::View& view);
-  void handle(protocol::EditMessage& edit);
+  void handle(protocol::EditMessage& edit) { submit(edit.id, std::move(edit.edit)); }
+  void handle(protocol::LayerMessage& layer) { submit(layer.id, std::move(layer.change)); }
   void handle(const protocol::Ping& ping);
   void handle(const protocol::Undo& undo) { refuse_unsupported(undo.id, "undo"); }
   void handle(const protocol::Redo& redo) { refuse_unsupported(redo.id, "redo"); }
-  void handle(const protocol::LayerMessage& layer) { refuse_unsupported(layer.id, "layer"); }
   void handle(protocol::Chat& chat);
   void handle(protocol::Cursor& cursor);
   void handle(const protocol::Events& events);
 
+  void submit(protocol::MessageId id, protocol::Action action);
   void say(const protocol::ServerMessage& message);
   void done(std::optional<protocol::MessageId> id);
   void reject(std::optional<protocol::MessageId> id, protocol::Failure why);

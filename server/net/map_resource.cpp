@@ -84,7 +84,7 @@ void describe_map(const RoomPointer& room, int status, Given give) {
     const room::RoomInfo info = room->info();
     HttpResponse response =
         json_response(status, {{"name", room->name()},
-                               {"settings", protocol::write_settings(room->settings())},
+                               {"settings", protocol::write_settings(info.settings)},
                                {"epoch", protocol::hex(room->epoch())},
                                {"seq", info.seq},
                                {"hash", protocol::hex(info.hash)},
@@ -133,13 +133,13 @@ void give_export(const RoomPointer& room, ExportQuestion question, Workers& work
                                          std::to_string(snapshot->seq),
                                      "seq"}));
     }
-    const std::string tag = export_tag(live.settings(), snapshot->mesh_hash);
+    const std::string tag = export_tag(snapshot->settings, snapshot->mesh_hash);
     if (question.if_none_match && names_tag(*question.if_none_match, tag))
       return give_when_kept(
           live, give, {.status = 304, .content_type = {}, .headers = {{"ETag", tag}}, .body = {}});
 
-    auto encode = [settings = live.settings(), snapshot, tag]() -> HttpResponse {
-      auto file = make_glb(settings, snapshot->records);
+    auto encode = [snapshot, tag]() -> HttpResponse {
+      auto file = make_glb(snapshot->settings, snapshot->records);
       if (!file) return problem(422, file.error());
       return {.status = 200,
               .content_type = "model/gltf-binary",

@@ -16,6 +16,10 @@ void Outbox::say(const protocol::ServerMessage& message) {
   append_counted(control_, control_counts_, Kind::text, protocol::write(message));
 }
 
+void Outbox::put_settings(room::SharedText message) {
+  if (!ending_) settings_ = std::move(message);
+}
+
 void Outbox::put(room::Parcel parcel) {
   if (ending_) return;
   assert(!has_parcel());
@@ -35,6 +39,7 @@ void Outbox::end(const protocol::Bye& bye) {
   say(bye);
   ending_ = true;
   parcel_.reset();
+  settings_.reset();
   talk_ = {};
 }
 
@@ -46,6 +51,8 @@ void Outbox::take(std::string& out, std::size_t enough, OutboxCounts& counts) {
 bool Outbox::take_next(std::string& out, OutboxCounts& counts) {
   if (!control_.empty()) {
     take_control(out, counts);
+  } else if (settings_) {
+    append_counted(out, counts, Kind::text, *std::exchange(settings_, nullptr));
   } else if (!talk_.messages.empty() && !(meshes_next_ && parcel_)) {
     append_counted(out, counts, Kind::text, *talk_.messages[next_talk_++]);
     if (next_talk_ < talk_.messages.size()) return true;

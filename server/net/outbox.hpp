@@ -1,5 +1,6 @@
-/// What a session still has to write: control messages first, then what is told of people and
-/// events, then one parcel of meshes, made into messages only as the socket takes them.
+/// What a session still has to write: control messages first, then the map's settings, then what is
+/// told of people and events, then one parcel of meshes, made into messages only as the socket
+/// takes them.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,10 @@ namespace earthwork::net {
 class Outbox {
  public:
   void say(const protocol::ServerMessage& message);
+  /// A message that stands for the one before, if that was not taken yet.
+  void put_settings(room::SharedText message);
+  /// They are of a map that was left.
+  void forget_settings() { settings_.reset(); }
   /// Only when there is no parcel.
   void put(room::Parcel parcel);
   /// Only when there is no talk.
@@ -47,6 +52,7 @@ class Outbox {
 
   std::string control_;  // as it goes over the socket; bounded: nothing is read while it is long
   OutboxCounts control_counts_;
+  room::SharedText settings_;
   room::Talk talk_;
   std::size_t next_talk_ = 0;
   bool meshes_next_ = false;  // a talk is through: whoever reads slowly must not hear only talks

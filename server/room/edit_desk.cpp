@@ -32,14 +32,15 @@ protocol::Rejected refusal(protocol::MessageId id, Authors::Standing standing) {
 
 }  // namespace
 
-EditDesk::EditDesk(voxel::Map& map, Commits commits, std::span<const journal::AuthorState> authors,
+EditDesk::EditDesk(Subject subject, Commits commits, std::span<const journal::AuthorState> authors,
                    std::uint64_t seq, std::shared_ptr<Meters> meters, Told told)
-    : map_(map),
+    : map_(subject.map),
+      settings_(subject.settings),
       commits_(commits),
       meters_(std::move(meters)),
       told_(std::move(told)),
       authors_(authors),
-      slicer_(map),
+      slicer_(subject.map),
       last_seq_(seq),
       durable_seq_(seq) {}
 
@@ -57,11 +58,7 @@ void EditDesk::take_turn() {
 void EditDesk::take_next() {
   const Line::Waiting& next = line_.next();
   if (slicer_.must_wait(next)) return line_.put_aside();
-  const auto fresh = [&] {
-    return authors_.judge(next.command.author, next.command.id).standing ==
-           Authors::Standing::fresh;
-  };
-  if (Slicer::too_large(next) && fresh()) {
+  if (Slicer::too_large(next) && may_begin(next.command)) {
     slicer_.start(next.command);
     return line_.put_aside();
   }
@@ -70,20 +67,35 @@ void EditDesk::take_next() {
   decide(taken);
 }
 
-// A refusal may rest on what is not durable yet: on a larger id of its author.
+bool EditDesk::may_begin(const Command& command) const {
+  return authors_.judge(command.author, command.id).standing == Authors::Standing::fresh &&
+         protocol::check_layers(command.action, settings_.accepted()).has_value();
+}
+
+// A refusal may rest on what is not durable yet: on a larger id of its author, or on a layer.
 void EditDesk::decide(Line::Waiting& edit) {
   const Command& command = edit.command;
   const auto [standing, seq] = authors_.judge(command.author, command.id);
-  if (standing == Authors::Standing::fresh) {
-    if (commits_ == Commits::later)
-      before_.keep(map_, static_cast<int>(command.edit.layer), history::stencils(command.edit));
-    return applied(edit, history::apply(map_, command.edit));
-  }
+  if (standing == Authors::Standing::fresh) return carry_out(edit);
   if (standing == Authors::Standing::repeated) {
     ++meters_->repeated;
     return told_.answered(edit.viewer, protocol::Applied{.id = command.id, .seq = seq}, seq);
   }
   told_.answered(edit.viewer, refusal(command.id, standing), last_seq_);
+}
+
+void EditDesk::carry_out(Line::Waiting& edit) {
+  const Command& command = edit.command;
+  if (auto checked = protocol::check_layers(command.action, settings_.accepted()); !checked)
+    return told_.answered(edit.viewer, protocol::Rejected{command.id, std::move(checked.error())},
+                          last_seq_);
+  if (const auto* change = std::get_if<protocol::LayerChange>(&command.action)) {
+    settings_.accept(*change);
+  } else if (commits_ == Commits::later) {
+    const auto& stamped = std::get<protocol::Edit>(command.action);
+    before_.keep(map_, static_cast<int>(stamped.layer), history::stencils(stamped));
+  }
+  applied(edit, history::apply(map_, command.action));
 }
 
 void EditDesk::apply_prepared() {
@@ -112,6 +124,8 @@ void EditDesk::durable(std::uint64_t seq) {
 // Whoever waits for a number, waits for one above those that are gone: it has none either.
 void EditDesk::take_back(const protocol::Failure& why) {
   before_.take_back(map_);
+  settings_.take_back();
+  map_.set_layers(static_cast<int>(settings_.accepted().layers.size()));
   authors_.take_back();
   last_seq_ = durable_seq_;
   slicer_.clear();

@@ -1,6 +1,6 @@
-/// Where edits that are asked for become events: they come to their turn in a fair order, those
-/// that are new are applied, those that are not are known again, and what is too large to be
-/// applied at once is prepared aside.
+/// Where edits, and changes of layers, that are asked for become events: they come to their turn in
+/// a fair order, those that are new are applied, those that are not are known again, and what is
+/// too large to be applied at once is prepared aside.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 #include "server/room/line.hpp"
 #include "server/room/meters.hpp"
 #include "server/room/opening.hpp"
+#include "server/room/settings_book.hpp"
 #include "server/room/slicer.hpp"
 #include "server/room/viewer.hpp"
 #include "server/voxel/change.hpp"
@@ -36,12 +37,18 @@ class EditDesk {
     /// No more edits can be taken now.
     std::function<bool()> full;
   };
-  /// The map outlives it, and is changed by nobody else. `authors` is what is remembered of them up
-  /// to event `seq`, the map's last. Counts in `meters` what is repeated.
-  EditDesk(voxel::Map& map, Commits commits, std::span<const journal::AuthorState> authors,
+  /// The map and its settings outlive it, and nobody else changes what is accepted of them.
+  struct Subject {
+    voxel::Map& map;
+    SettingsBook& settings;
+  };
+  /// `authors` is what is remembered of them up to event `seq`, the map's last. Counts in `meters`
+  /// what is repeated.
+  EditDesk(Subject subject, Commits commits, std::span<const journal::AuthorState> authors,
            std::uint64_t seq, std::shared_ptr<Meters> meters, Told told);
 
-  /// Puts a valid edit in line, as Line::push does.
+  /// Puts an edit in line that is valid if the map has its layer, or a change of layers, as
+  /// Line::push does. Whether the layer is there shows in its turn: one before it may add it.
   [[nodiscard]] bool push(Line::Waiting edit) { return line_.push(std::move(edit)); }
   /// Takes edits until none is next, or for as long as a turn may be.
   void take_turn();
@@ -55,8 +62,8 @@ class EditDesk {
   void handed_over();
   /// It is durable, up to `seq`.
   void durable(std::uint64_t seq);
-  /// The map becomes what it was after the last durable event; whoever is in line is refused, for
-  /// this.
+  /// The map and its settings become what they were after the last durable event; whoever is in
+  /// line is refused, for this.
   void take_back(const protocol::Failure& why);
   /// Nobody is in line any more, and nobody is told.
   void clear();
@@ -67,11 +74,14 @@ class EditDesk {
 
  private:
   void take_next();
+  [[nodiscard]] bool may_begin(const Command& command) const;
   void decide(Line::Waiting& edit);
+  void carry_out(Line::Waiting& edit);
   void apply_prepared();
   void applied(Line::Waiting& edit, const voxel::Change& change);
 
   voxel::Map& map_;
+  SettingsBook& settings_;
   const Commits commits_;
   const std::shared_ptr<Meters> meters_;
   const Told told_;

@@ -28,7 +28,7 @@ protocol::Event to_protocol(const history::Event& event) {
   return {.seq = event.seq,
           .time_ms = event.time_ms,
           .author = protocol::hex(event.author),
-          .edit = event.edit,
+          .action = event.action,
           .hash = protocol::hex(event.hash)};
 }
 

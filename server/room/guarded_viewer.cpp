@@ -32,6 +32,10 @@ void GuardedViewer::tell(Talk talk) {
   guard([&] { viewer_->tell(std::move(talk)); });
 }
 
+void GuardedViewer::settings(SharedText message) {
+  guard([&] { viewer_->settings(std::move(message)); });
+}
+
 void GuardedViewer::end(protocol::Bye bye) {
   guard([&] { viewer_->end(std::move(bye)); });
 }

@@ -22,6 +22,7 @@ class GuardedViewer final : public Viewer {
   void answered(std::vector<Reply> replies) override;
   void deliver(Parcel parcel) override;
   void tell(Talk talk) override;
+  void settings(SharedText message) override;
   void end(protocol::Bye bye) override;
 
   /// Calls something of the viewer's, unless it is broken.

@@ -103,7 +103,8 @@ void Keyframer::taken_back() {
 // taken back since has been as it is for longer than is told.
 void Keyframer::begin() {
   attempt_ = std::make_unique<Attempt>();
-  attempt_->keyframe = {handed_over_.seq, handed_over_.hash, subject_.clock.now_ms()};
+  attempt_->keyframe = {handed_over_.seq, handed_over_.hash, subject_.clock.now_ms(),
+                        subject_.settings};
   attempt_->changed = std::exchange(changed_, {});
   attempt_->authors = std::exchange(authors_, {});
 

@@ -43,6 +43,7 @@ class Keyframer {
  public:
   struct Subject {
     const voxel::Map& map;
+    const protocol::MapSettings& settings;  ///< The map's, with all that was accepted.
     /// What is remembered of an author, with all that was accepted.
     std::function<journal::AuthorState(std::uint64_t author)> author;
     journal::Clerk& clerk;

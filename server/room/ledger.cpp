@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::size_t bytes_of(const history::Event& event) {
-  return sizeof event + event.edit.path.size() * sizeof(protocol::MapPoint);
+  return sizeof event + protocol::points(event.action) * sizeof(protocol::MapPoint);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Line::Head Line::head_of(const std::deque<Entry>& queue) {
 
 bool Line::push(Waiting waiting) {
   assert(waiting.cost >= 1);
-  const std::size_t points = waiting.command.edit.path.size();
+  const std::size_t points = protocol::points(waiting.command.action);
   if (points_ + points > kMaxWaitingPoints) return false;
 
   const std::uint64_t author = waiting.command.author;
@@ -69,7 +69,7 @@ Line::Waiting Line::take_first(Queues::iterator queue) {
     heads_.insert(head_of(queue->second));
 
   --size_;
-  points_ -= entry.waiting.command.edit.path.size();
+  points_ -= protocol::points(entry.waiting.command.action);
   clock_ = std::max(clock_, entry.start);
   // A newcomer starts where the clock stands: an endless row of them, each under a key of its own,
   // must not stop it, or whoever has an edit to come would wait for ever.

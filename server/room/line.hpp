@@ -1,5 +1,5 @@
-/// Edits that wait to be applied, in an order that is fair to their authors: who asks for much
-/// waits for it, and does not keep those waiting who ask for little.
+/// Edits, and changes of layers, that wait to be applied, in an order that is fair to their
+/// authors: who asks for much waits for it, and does not keep those waiting who ask for little.
 ///
 /// Start-time fair queueing: an edit starts, on a clock that counts work, when the one before it
 /// of its author would have ended, or now when there is none; the earliest start is served first.
@@ -13,21 +13,22 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "protocol/edit.hpp"
+#include "protocol/action.hpp"
 #include "protocol/messages.hpp"
 #include "server/room/viewer.hpp"
 
 namespace earthwork::room {
 
-/// Centres of edits that wait to be applied, of all viewers together. A message that has one is
-/// much larger, so this bounds what a crowd of editors can make a map hold.
+/// Centres of edits that wait to be applied, of all viewers together; a change of layers counts as
+/// one. A message that has one is much larger, so this bounds what a crowd of editors can make a
+/// map hold.
 inline constexpr std::size_t kMaxWaitingPoints = std::size_t{4} << 20;
 
-/// An edit that somebody asks for.
+/// An edit, or a change of layers, that somebody asks for.
 struct Command {
   protocol::MessageId id = 0;
   std::uint64_t author = 0;
-  protocol::Edit edit;
+  protocol::Action action;
 };
 
 /// One thread at a time.

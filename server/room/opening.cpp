@@ -16,6 +16,7 @@ Opening open_empty(const journal::Identity& identity, std::unique_ptr<journal::C
                    Commits commits) {
   return {.identity = identity,
           .restored = {.map = history::make_map(identity.settings),
+                       .settings = identity.settings,
                        .ages = {},
                        .authors = {},
                        .passed_over = {}},

@@ -16,7 +16,7 @@ namespace {
 using protocol::Code;
 
 std::size_t memory_bytes(const history::Event& event) {
-  return sizeof event + event.edit.path.size() * sizeof(protocol::MapPoint);
+  return sizeof event + protocol::points(event.action) * sizeof(protocol::MapPoint);
 }
 
 /// What came, as far as it is the events from `seq` on.

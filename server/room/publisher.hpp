@@ -51,8 +51,8 @@ inline constexpr std::chrono::milliseconds kLongestRest{50};
 /// On the strand of the room whose part it is.
 class Publisher {
  public:
-  /// What is shown. The map outlives the publisher, has these settings, and is changed between
-  /// calls only. It begins as of `seq`, which is durable; `ages` are of its chunks and those that
+  /// What is shown. The map and its settings outlive the publisher, and change between calls
+  /// only. It begins as of `seq`, which is durable; `ages` are of its chunks and those that
   /// are gone.
   struct Subject {
     const voxel::Map& map;
@@ -138,7 +138,7 @@ class Publisher {
   [[nodiscard]] MapState state() const { return {meshes_, epoch_, seq_}; }
 
   const voxel::Map& map_;
-  const protocol::MapSettings settings_;
+  const protocol::MapSettings& settings_;
   const std::uint64_t epoch_;
   const std::shared_ptr<Meters> meters_;
   const Later later_;

@@ -34,7 +34,7 @@ protocol::Edit stamp_at(const protocol::MapPoint& at, const protocol::Brush& bru
 Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
            std::shared_ptr<Meters> meters)
     : name_(std::move(name)),
-      settings_(std::move(opening.identity.settings)),
+      settings_(std::move(opening.restored.settings)),
       epoch_(opening.identity.epoch),
       strand_(std::move(strand)),
       meters_(std::move(meters)),
@@ -43,7 +43,8 @@ Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
       map_(std::move(opening.restored.map)),
       ledger_(*clerk_, {opening.restored.seq, opening.restored.hash, map_.chunk_count()}, meters_),
       publisher_(
-          {map_, settings_, epoch_, opening.restored.seq, opening.restored.ages, meters_},
+          {map_, settings_.accepted(), epoch_, opening.restored.seq, opening.restored.ages,
+           meters_},
           [this](std::chrono::milliseconds delay, std::function<void()> task) {
             run_later(delay, std::move(task));
           },
@@ -55,11 +56,12 @@ Room::Room(std::string name, Opening opening, std::unique_ptr<Strand> strand,
               [this](std::chrono::milliseconds delay, std::function<void()> task) {
                 run_later(delay, std::move(task));
               }),
-      keyframer_({map_, [this](std::uint64_t author) { return desk_.authors().state(author); },
-                  *clerk_, [this] { return workplace(); }, *strand_, meters_},
+      keyframer_({map_, settings_.accepted(),
+                  [this](std::uint64_t author) { return desk_.authors().state(author); }, *clerk_,
+                  [this] { return workplace(); }, *strand_, meters_},
                  opening.restored),
       desk_(
-          map_, commits_, opening.restored.authors, opening.restored.seq, meters_,
+          {map_, settings_}, commits_, opening.restored.authors, opening.restored.seq, meters_,
           {.applied = [this](Command& command,
                              const voxel::Change& change) { return accept(command, change); },
            .answered = [this](ViewerId viewer, Reply reply,
@@ -80,7 +82,7 @@ protocol::Result<Room::Entrance> Room::join(std::shared_ptr<Viewer> viewer, prot
   seats_.enter(id, std::move(guarded));
 
   protocol::Joined joined{.map = name_,
-                          .settings = settings_,
+                          .settings = settings(),
                           .epoch = protocol::hex(epoch_),
                           .seq = ledger_.durable().seq,
                           .users = herald_.users_for(id),
@@ -118,7 +120,7 @@ protocol::Result<void> Room::point(ViewerId viewer, const protocol::Cursor& curs
   if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "cursor: join a map first");
   if (cursor.at) {
     const protocol::Edit stamp = stamp_at(*cursor.at, cursor.brush.value_or(protocol::Brush{}));
-    if (auto checked = protocol::check_edit(stamp, settings_); !checked) return checked;
+    if (auto checked = protocol::check_edit(stamp, settings_.accepted()); !checked) return checked;
   }
   if (cursor.view) {
     if (auto checked = protocol::check_seen(*cursor.view, settings()); !checked) return checked;
@@ -150,10 +152,13 @@ protocol::Result<void> Room::follow(ViewerId viewer, std::uint64_t from_seq) {
 protocol::Result<void> Room::submit(ViewerId viewer, Command command) {
   if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "edit: join a map first");
   used();
-  if (auto checked = protocol::check_edit(command.edit, settings_); !checked) return checked;
+  const auto* edit = std::get_if<protocol::Edit>(&command.action);
+  if (edit)
+    if (auto checked = protocol::check_stamps(*edit, settings_.accepted()); !checked)
+      return checked;
   if (const protocol::Failure* trouble = ledger_.trouble(last_used_ms_))
     return tl::unexpected<protocol::Failure>(*trouble);
-  const std::uint64_t cost = rows_visited(command.edit, settings_);
+  const std::uint64_t cost = edit ? rows_visited(*edit, settings_.accepted()) : 1;
   if (!desk_.push({viewer, std::move(command), cost, last_used_ms_}))
     return protocol::fail(Code::too_large,
                           "path: edits of " + std::to_string(kMaxWaitingPoints) +
@@ -234,7 +239,7 @@ std::uint64_t Room::accept(Command& command, const voxel::Change& change) {
                        .time_ms = strand_->now_ms(),
                        .author = command.author,
                        .id = command.id,
-                       .edit = std::move(command.edit),
+                       .action = std::move(command.action),
                        .hash = map_.hash()};
   publisher_.changed(change, event.seq);
   if (commits_ == Commits::later) keyframer_.accepted(event, change.changed);
@@ -273,6 +278,9 @@ void Room::settle() {
   const auto events = ledger_.settle(strand_->now_ms());
   if (!events) return take_back(events.error());
   desk_.durable(ledger_.durable().seq);
+  if (const std::uint64_t seq = settings_.store(*events); seq > 0)
+    seats_.tell_settings(std::make_shared<const std::string>(
+        protocol::write(protocol::SettingsChanged{.seq = seq, .settings = settings()})));
   events_.add(*events);
   meters_->edits += events->size();
   if (commits_ == Commits::later) keyframer_.durable();
@@ -329,7 +337,8 @@ bool Room::retire(std::function<void()> closed) {
 RoomInfo Room::info() {
   used();
   const auto [seq, hash, chunks] = ledger_.durable();
-  return {.seq = seq, .hash = hash, .chunks = chunks, .users = seats_.size()};
+  return {
+      .seq = seq, .hash = hash, .settings = settings(), .chunks = chunks, .users = seats_.size()};
 }
 
 bool Room::refresh_meshes(std::size_t budget) {
@@ -348,18 +357,20 @@ RoomLoad Room::load() const {
 RoomFigures Room::figures() {
   const std::uint64_t seq = ledger_.accepted_seq();
   if (!figures_ || figures_->seq != seq)
-    figures_ = RoomFigures{.seq = seq,
-                           .hash = map_.hash(),
-                           .chunks = map_.chunk_count(),
-                           .voxel_bytes = map_.memory_bytes(),
-                           .geometry = mesh::count_figures(map_, settings_.max_feature_angle),
-                           .meshes = publisher_.totals()};
+    figures_ =
+        RoomFigures{.seq = seq,
+                    .hash = map_.hash(),
+                    .chunks = map_.chunk_count(),
+                    .voxel_bytes = map_.memory_bytes(),
+                    .geometry = mesh::count_figures(map_, settings_.accepted().max_feature_angle),
+                    .meshes = publisher_.totals()};
   return *figures_;
 }
 
 MeshSnapshot Room::meshes() const {
   return {.seq = ledger_.accepted_seq(),
           .mesh_hash = publisher_.totals().hash,
+          .settings = settings_.accepted(),
           .records = publisher_.records()};
 }
 

@@ -1,4 +1,5 @@
-/// A live map: it gives edits their order, applies them, and shows them to its viewers.
+/// A live map: it gives edits, and changes of its layers, their order, applies them, and shows them
+/// to its viewers.
 #pragma once
 
 #include <chrono>
@@ -21,6 +22,7 @@
 #include "server/room/past_events.hpp"
 #include "server/room/publisher.hpp"
 #include "server/room/seats.hpp"
+#include "server/room/settings_book.hpp"
 #include "server/room/states_picture.hpp"
 #include "server/room/strand.hpp"
 #include "server/room/viewer.hpp"
@@ -31,6 +33,7 @@ namespace earthwork::room {
 /// What is durable.
 struct RoomInfo {
   std::uint64_t seq = 0, hash = 0;
+  protocol::MapSettings settings;
   std::size_t chunks = 0;  ///< Kept: with a filled voxel or a crossing.
   std::size_t users = 0;
 };
@@ -43,9 +46,10 @@ struct RoomFigures {
   MeshTotals meshes;
 };
 
-/// All meshes as of one seq.
+/// All meshes, and the settings, as of one seq.
 struct MeshSnapshot {
   std::uint64_t seq = 0, mesh_hash = 0;
+  protocol::MapSettings settings;
   std::vector<RecordBytes> records;  ///< In order of their keys.
 };
 
@@ -63,11 +67,12 @@ struct RoomLoad {
 /// the clerk has done what it was given.
 ///
 /// An edit is applied in its turn, and is durable when the batch that it goes into the journal with
-/// is. Only then its author is told so, and the others are shown it. When the batch cannot be
-/// stored, all that is not durable is taken back; those edits and all in line are refused with the
-/// journal's code, and whoever comes within kPauseMs too. Viewers stay. Should the journal turn out
-/// to be what it should not be (bad_state, damaged), the room closes: whoever comes again finds
-/// what was stored.
+/// is. Only then its author is told so, and the others are shown it. So it is with a change of
+/// layers, which all who are inside are then told, before they are shown anything that is later.
+/// When the batch cannot be stored, all that is not durable is taken back; those edits and all in
+/// line are refused with the journal's code, and whoever comes within kPauseMs too. Viewers stay.
+/// Should the journal turn out to be what it should not be (bad_state, damaged), the room closes:
+/// whoever comes again finds what was stored.
 ///
 /// When its own work throws, out of memory say, map and events may no longer agree: it closes with
 /// `internal`, and the exception goes on to the strand. A viewer that throws is told `end` and has
@@ -82,7 +87,8 @@ class Room : public std::enable_shared_from_this<Room> {
   Room& operator=(const Room&) = delete;
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const protocol::MapSettings& settings() const { return settings_; }
+  /// As of the last event that is durable.
+  [[nodiscard]] protocol::MapSettings settings() const { return *settings_.durable(); }
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
   [[nodiscard]] Strand& strand() const { return *strand_; }
 
@@ -120,13 +126,14 @@ class Room : public std::enable_shared_from_this<Room> {
   [[nodiscard]] protocol::Result<void> follow(ViewerId viewer, std::uint64_t from_seq);
 
   using Command = room::Command;
-  /// Puts an edit in line. Fails when `check_edit` does, with too_large when kMaxWaitingPoints
-  /// would be exceeded, and with what the journal failed with just now; then it has no number.
-  /// Otherwise the viewer is told later, never from within the call: its number, the one that it
-  /// has already when the author's id was applied before, or that it has none, by id_out_of_order,
-  /// id_too_old or what the journal fails with. An author's edits come to their
-  /// turn in the order of submission, whichever viewers they come from. A large one takes many
-  /// tasks; meanwhile others are applied and numbered before it, unless they come near its place.
+  /// Puts an edit or a change of layers in line. Fails when `check_stamps` does, with too_large
+  /// when kMaxWaitingPoints would be exceeded, and with what the journal failed with just now; then
+  /// it has no number. Otherwise the viewer is told later, never from within the call: its number,
+  /// the one that it has already when the author's id was applied before, or that it has none, by
+  /// id_out_of_order, id_too_old, `check_layers` or what the journal fails with. An author's come
+  /// to their turn in the order of submission, whichever viewers they come from. A large one takes
+  /// many tasks; meanwhile others are applied and numbered before it, unless they come near its
+  /// place.
   [[nodiscard]] protocol::Result<void> submit(ViewerId viewer, Command command);
 
   /// Calls `then` on the strand when all that is applied now is durable: within the call when it is
@@ -178,7 +185,7 @@ class Room : public std::enable_shared_from_this<Room> {
   void used() { last_used_ms_ = strand_->now_ms(); }
 
   const std::string name_;
-  const protocol::MapSettings settings_;
+  SettingsBook settings_;
   const std::uint64_t epoch_;
   const std::shared_ptr<Strand> strand_;  // shared with what the clerk brings back
   const std::shared_ptr<Meters> meters_;

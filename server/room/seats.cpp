@@ -30,6 +30,11 @@ void Seats::tell_answers(std::uint64_t durable_seq) {
   }
 }
 
+void Seats::tell_settings(const SharedText& message) {
+  for (auto& [id, seat] : seats_)
+    if (!seat.gone) seat.viewer->settings(message);
+}
+
 bool Seats::leaves_when_told(ViewerId id, std::function<void()> gone) {
   const auto seat = seats_.find(id);
   if (seat == seats_.end() || seat->second.owed == 0) return false;

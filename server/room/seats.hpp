@@ -35,6 +35,9 @@ class Seats {
   /// Tells everybody what is durable.
   void tell_answers(std::uint64_t durable_seq);
 
+  /// Tells everybody who does not leave the map's settings, as one `settings` message.
+  void tell_settings(const SharedText& message);
+
   /// False when the viewer is owed no answer. Else `gone` is kept for when it is owed none.
   [[nodiscard]] bool leaves_when_told(ViewerId id, std::function<void()> gone);
   struct Leaver {

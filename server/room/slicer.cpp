@@ -17,14 +17,15 @@ std::uint64_t rows_visited(const protocol::Edit& edit, const protocol::MapSettin
 bool Slicer::must_wait(const Line::Waiting& edit) const {
   if (!busy()) return false;
   if (too_large(edit)) return true;
-  const protocol::Edit& asked = edit.command.edit;
-  const voxel::Reach reach(map_.grid(), static_cast<int>(asked.layer), history::stencils(asked));
+  const auto* asked = std::get_if<protocol::Edit>(&edit.command.action);
+  if (!asked) return false;
+  const voxel::Reach reach(map_.grid(), static_cast<int>(asked->layer), history::stencils(*asked));
   return prepared_->edit.reach().meets(reach);
 }
 
 void Slicer::start(const Command& command) {
   assert(!busy());
-  const protocol::Edit& asked = command.edit;
+  const auto& asked = std::get<protocol::Edit>(command.action);
   prepared_.emplace(command.author, voxel::SlicedEdit(map_, static_cast<int>(asked.layer),
                                                       history::stencils(asked)));
 }

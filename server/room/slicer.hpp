@@ -41,10 +41,11 @@ class Slicer {
   /// Who made the edit in preparation. When busy.
   [[nodiscard]] std::uint64_t author() const { return prepared_->author; }
   /// Whether this one must not be applied before `commit`: it may touch what is in preparation, or
-  /// is too large as well. False when not busy.
+  /// is too large as well. False when not busy, and for a change of layers: what is in preparation
+  /// has its layer already.
   [[nodiscard]] bool must_wait(const Line::Waiting& edit) const;
 
-  /// When not busy. Does no work yet.
+  /// An edit of a layer that the map has. When not busy. Does no work yet.
   void start(const Command& command);
   /// The next slice; when busy.
   void advance();

@@ -53,6 +53,9 @@ class Viewer {
   virtual void deliver(Parcel parcel) = 0;
   /// The next talk comes after `Room::heard`, never before.
   virtual void tell(Talk talk) = 0;
+  /// The map's layers have changed: a `settings` message, before anything is delivered that needs
+  /// it. Of those that were not sent on yet only the last one counts.
+  virtual void settings(SharedText message) = 0;
   /// The room is gone, and calls no more.
   virtual void end(protocol::Bye bye) = 0;
 };

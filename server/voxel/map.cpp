@@ -20,6 +20,17 @@ std::uint64_t hash_term(const ChunkKey& key, std::uint64_t chunk_hash) {
 
 }  // namespace
 
+void Map::set_layers(int layers) {
+  assert(1 <= layers && layers <= kMaxLayers);
+  for (auto next = chunks_.begin(); next != chunks_.end();) {
+    const auto chunk = next++;
+    if (chunk->first.layer < layers) continue;
+    hash_ -= chunk->second.term;
+    chunks_.erase(chunk);
+  }
+  grid_.layers = layers;
+}
+
 const Change& Map::apply(int layer, std::span<const Stencil> stencils) {
   assert(layer >= 0 && layer < grid_.layers);
   change_.clear();

@@ -35,7 +35,10 @@ class Map {
  public:
   explicit Map(const Grid& grid) : grid_(grid) {}
 
+  /// Its layers may become more or fewer; everything else stays.
   const Grid& grid() const { return grid_; }
+  /// `layers` is 1 .. kMaxLayers. A new layer is empty; of one that goes, nothing is kept.
+  void set_layers(int layers);
 
   /// Applies `stencils` in order to `layer` (0 .. layers - 1) and says what is different
   /// afterwards, as one change. The result is valid until the next call. What lies beyond the

@@ -95,7 +95,7 @@ TEST(MapImport, TakesTheSettingsAndAKeyframe) {
 }
 
 TEST(MapImport, GoesOverManyBatches) {
-  std::vector<protocol::Edit> edits;
+  std::vector<protocol::Action> edits;
   for (std::size_t i = 0; i < 2 * kImportBatch + 5; ++i)
     edits.push_back(journal::disc(static_cast<double>(i % 50), 0, 1));
   const auto made = imported(joined(lines_of(accepted(edits))));

@@ -71,10 +71,12 @@ history::Event event(std::uint64_t seq, std::mt19937_64& lot) {
                        .time_ms = 1'700'000'000'000 + static_cast<std::int64_t>(seq),
                        .author = 0x1234'5678'9ABC'DEF0 + lot() % 8,
                        .id = static_cast<std::int64_t>(seq / 8 + 1),
-                       .edit = {},
+                       .action = {},
                        .hash = lot()};
-  event.edit.radius = 3;
-  event.edit.path = {{coordinate(), coordinate()}};
+  protocol::Edit edit;
+  edit.radius = 3;
+  edit.path = {{coordinate(), coordinate()}};
+  event.action = std::move(edit);
   return event;
 }
 

@@ -10,6 +10,13 @@ void check_limits(const ClientMessage& message, const MapSettings& settings) {
   if (const auto* edit = std::get_if<EditMessage>(&message))
     if (const auto checked = check_edit(edit->edit, settings); !checked)
       expect(!checked.error().field.empty(), "a refused edit names its field");
+  if (const auto* layer = std::get_if<LayerMessage>(&message)) {
+    MapSettings changed = settings;
+    const auto checked = check_layer_change(layer->change, changed);
+    if (checked) apply(layer->change, changed);
+    expect(changed.layers.size() <= kMaxLayers, "no map gets more layers than it may have");
+    expect(checked || !checked.error().field.empty(), "a refused change names its field");
+  }
   if (const auto* view = std::get_if<View>(&message))
     if (const auto checked = check_view(*view, settings); !checked)
       expect(checked.error().code == Code::too_large, "a view is refused for its size alone");

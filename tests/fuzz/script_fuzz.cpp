@@ -16,6 +16,8 @@ void check(std::string_view text) {
   expect(line.has_value(), "the only line of a script can be read alone");
   if (const auto* edit = std::get_if<Edit>(&*line))
     expect(std::get<Edit>(script->steps[0]) == *edit, "and says the same");
+  if (const auto* change = std::get_if<LayerChange>(&*line))
+    expect(std::get<LayerChange>(script->steps[0]) == *change, "and so does a change of layers");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using protocol::StencilShape;
 
 Event event(std::uint64_t seq, double x, double y, double radius, bool fill) {
   Edit edit{.fill = fill, .radius = radius, .path = {{x, y}}, .stroke = {}};
-  return {.seq = seq, .time_ms = 0, .author = 0, .id = 0, .edit = edit, .hash = 0};
+  return {.seq = seq, .time_ms = 0, .author = 0, .id = 0, .action = edit, .hash = 0};
 }
 
 rc::Gen<std::vector<Event>> some_events() {
@@ -30,7 +30,7 @@ rc::Gen<std::vector<Event>> some_events() {
                   .radius = radius / 8.0,
                   .path = {{x, y}},
                   .stroke = {}};
-        return Event{.seq = 0, .time_ms = 0, .author = 0, .id = 0, .edit = edit, .hash = 0};
+        return Event{.seq = 0, .time_ms = 0, .author = 0, .id = 0, .action = edit, .hash = 0};
       },
       coordinate, coordinate, rc::gen::inRange(0, 120), rc::gen::arbitrary<bool>(),
       rc::gen::weightedElement<bool>({{3, true}, {1, false}}));
@@ -41,7 +41,7 @@ TEST(Events, GiveTheSameHashWheneverTheyAreReplayed) {
   EXPECT_TRUE(rc::check([] {
     const auto events = *some_events();
     voxel::Map live = make_map({}), again = make_map({});
-    for (const Event& e : events) apply(live, e.edit);
+    for (const Event& e : events) apply(live, e.action);
     replay(again, events);
     RC_ASSERT(live.hash() == again.hash());
   }));
@@ -64,7 +64,7 @@ void number(std::vector<Event>& events) {
   voxel::Map map = make_map({});
   std::uint64_t seq = 0;
   for (Event& e : events) {
-    apply(map, e.edit);
+    apply(map, e.action);
     e.seq = ++seq;
     e.hash = map.hash();
   }
@@ -89,7 +89,7 @@ TEST(Events, TheFirstThatDiffersIsTold) {
   std::vector<Event> events{event(1, 9, 9, 3, true), event(2, 9, 9, 2, false),
                             event(3, 9, 9, 1, true)};
   number(events);
-  events[1].edit.radius = 1;  // another edit than the one that was accepted
+  std::get<protocol::Edit>(events[1].action).radius = 1;  // another edit than the one that was accepted
   voxel::Map map = make_map({});
   EXPECT_EQ(verify(map, events), 2u);
   EXPECT_EQ(map.hash(), [&] {

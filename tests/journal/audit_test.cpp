@@ -172,7 +172,7 @@ TEST(Audit, IsNoneWhenTheDiskFails) {
 }
 
 TEST(Audit, BoundsItsFindings) {
-  std::vector<protocol::Edit> edits(1, disc(0, 0, 100));
+  std::vector<protocol::Action> edits(1, disc(0, 0, 100));
   TamperedJournal journal(journal_of(accepted(edits), {1}));
   journal.change_chunk = [](ChunkState& state) { state.chunk = voxel::Chunk(8); };
   EXPECT_EQ(audit(journal)->findings.size(), 100u);

@@ -19,7 +19,7 @@ std::unique_ptr<Journal> empty_journal() { return make_memory_journal({}); }
 history::Event first_event() {
   protocol::Edit edit;
   edit.path = {{1, 2}};
-  return {.seq = 1, .time_ms = 5, .author = 7, .id = 1, .edit = edit, .hash = 9};
+  return {.seq = 1, .time_ms = 5, .author = 7, .id = 1, .action = edit, .hash = 9};
 }
 
 TEST(Clerk, RunsUrgentTasksBeforeIdleOnesAndKeepsTheOrderOfEach) {

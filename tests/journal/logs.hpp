@@ -20,17 +20,17 @@ inline Identity small_identity() {
 }
 
 /// Numbers them from 1 on, gives them to three authors in turn, and fills in the hashes.
-inline std::vector<history::Event> accepted(const std::vector<protocol::Edit>& edits) {
+inline std::vector<history::Event> accepted(const std::vector<protocol::Action>& actions) {
   voxel::Map map = history::make_map(small_identity().settings);
   std::vector<history::Event> events;
-  for (const protocol::Edit& edit : edits) {
+  for (const protocol::Action& action : actions) {
     const std::uint64_t seq = events.size() + 1;
-    history::apply(map, edit);
+    history::apply(map, action);
     events.push_back({.seq = seq,
                       .time_ms = static_cast<std::int64_t>(1700000000000 + 10 * seq),
                       .author = 0xa0 + seq % 3,
                       .id = static_cast<std::int64_t>(100 + seq),
-                      .edit = edit,
+                      .action = action,
                       .hash = map.hash()});
   }
   return events;
@@ -40,12 +40,17 @@ inline protocol::Edit disc(double x, double y, double radius, bool fill = true) 
   return {.fill = fill, .radius = radius, .path = {{x, y}}, .stroke = {}};
 }
 
+inline protocol::Action disc_action(double x, double y, double radius, bool fill) {
+  return disc(x, y, radius, fill);
+}
+
 /// Discs that fill and empty, close enough together that chunks come and go.
-inline rc::Gen<std::vector<protocol::Edit>> some_edits() {
+inline rc::Gen<std::vector<protocol::Action>> some_edits() {
   const auto place = rc::gen::map(rc::gen::inRange(-60, 60), [](int n) { return n / 2.0; });
-  return rc::gen::container<std::vector<protocol::Edit>>(rc::gen::apply(
-      disc, place, place, rc::gen::map(rc::gen::inRange(0, 24), [](int n) { return n / 2.0; }),
-      rc::gen::weightedElement<bool>({{3, true}, {2, false}})));
+  return rc::gen::container<std::vector<protocol::Action>>(
+      rc::gen::apply(disc_action, place, place,
+                     rc::gen::map(rc::gen::inRange(0, 24), [](int n) { return n / 2.0; }),
+                     rc::gen::weightedElement<bool>({{3, true}, {2, false}})));
 }
 
 /// Appends `events`, with a keyframe after each of `keyframes` as of the seq it names.
@@ -70,7 +75,7 @@ inline std::unique_ptr<Journal> journal_of(const std::vector<history::Event>& ev
 
 /// Nine discs in a row, each as large as a chunk; the fourth one is taken away again.
 inline std::vector<history::Event> ten_events() {
-  std::vector<protocol::Edit> edits;
+  std::vector<protocol::Action> edits;
   for (int i = 0; i < 9; ++i) edits.push_back(disc(10.0 * i, 4, 3));
   edits.push_back(disc(30, 4, 5, false));
   return accepted(edits);

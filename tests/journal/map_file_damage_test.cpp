@@ -265,6 +265,7 @@ TEST(MapFileDamage, AChangedRowIsNamed) {
            {"INSERT INTO meta VALUES('more', 'x')", "meta"},
            {"UPDATE events SET time_ms = time_ms + 1 WHERE seq = 5", "batches: seq 4"},
            {"UPDATE events SET command = x'00' WHERE seq = 5", "events: seq 5"},
+           {"UPDATE events SET kind = 'edit' WHERE seq = 9", "events: seq 9"},
            {"DELETE FROM events WHERE seq = 5", "events: seq 5"},
            {"DELETE FROM events WHERE seq = 12", "events: seq 12"},
            {"UPDATE batches SET last_seq = 11 WHERE first_seq = 4", "12"},
@@ -272,6 +273,8 @@ TEST(MapFileDamage, AChangedRowIsNamed) {
            {"DELETE FROM batches WHERE first_seq = 4", "12"},
            {"UPDATE keyframes SET time_ms = 1", "keyframes: seq 12"},
            {"UPDATE keyframes SET seq = 13", "keyframes: seq 13"},
+           {"UPDATE keyframes SET settings = json_set(settings, '$.layers[2].name', 'x')",
+            "keyframes: seq 12"},
            {"DELETE FROM chunks WHERE (layer, place) = (SELECT max(layer), min(place) FROM chunks "
             "WHERE layer = 1)",
             "chunks: seq 12"},
@@ -309,7 +312,8 @@ TEST(MapFileDamage, WhatExecutionFindsIsNamedWithTheFile) {
   EXPECT_EQ(restore(*journal, {}, Trust::strict).error().detail.find(where), 0u);
   EXPECT_EQ(audit(*journal).value().findings.at(0).detail.find(where), 0u);
 
-  ASSERT_TRUE(journal->put_keyframe({.seq = 2, .map_hash = 77}));
+  ASSERT_TRUE(
+      journal->put_keyframe({.seq = 2, .map_hash = 77, .settings = sample_identity().settings}));
   EXPECT_EQ(
       restore(*journal, 3, Trust::strict).error().detail.find("map.earthwork: keyframes: seq 2"),
       0u);

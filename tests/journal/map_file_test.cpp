@@ -115,9 +115,13 @@ TEST_F(MapFile, ShowsPeopleWhatIsDocumented) {
   EXPECT_EQ(shell.run("SELECT seq, command->>'stencil', command->>'radius', printf('%016x', hash) "
                       "FROM events ORDER BY seq DESC LIMIT 1"),
             "12 circle 1.3 " + protocol::hex(log.hash()));
+  EXPECT_EQ(shell.run("SELECT seq, kind, command FROM events WHERE kind <> 'edit'"),
+            "9 layer {\"name\":\"três\\\"\",\"wall\":[-2.5,0.1]}");
   EXPECT_EQ(shell.run("SELECT first_seq, last_seq FROM batches"), "1 3 4 12");
   EXPECT_EQ(shell.run("SELECT seq, chunks, authors FROM keyframes"),
             "12 " + std::to_string(log.states().size()) + " 3");
+  EXPECT_EQ(shell.run("SELECT json_extract(settings, '$.layers[2].wall') FROM keyframes"),
+            "[-2.5,0.1]");
   EXPECT_EQ(shell.run("SELECT count(*) FROM chunks"), std::to_string(log.states().size()));
 }
 
@@ -299,7 +303,7 @@ void write_long_strokes(Journal& journal, SampleLog& log, std::size_t count) {
   auto batch = log.more(count);
   for (auto& event : batch) {
     event.edit.is_path = true;
-    event.edit.path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
+    std::get<protocol::Edit>(event.action).path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
   }
   ASSERT_TRUE(journal.append(expected, batch));
 }
@@ -349,7 +353,7 @@ TEST_F(MapFile, RefusesACommandOfALaterKind) {
     const auto journal = create();
     log.write(*journal, {1});
   }
-  Shell(path).run("UPDATE events SET command = json_set(command, '$.kind', 'undo')");
+  Shell(path).run("UPDATE events SET kind = 'undo'");
   const auto journal = open(Access::read);
   const auto events = journal->events(1, 1000);
   ASSERT_FALSE(events);

@@ -91,11 +91,9 @@ TEST(Restore, DoesNotReachPastTheLastEvent) {
 }
 
 TEST(Restore, ReadsTheLogInPages) {
-  std::vector<protocol::Edit> edits(3, disc(0, 0, 1));
-  for (auto& edit : edits) edit.is_path = true, edit.path.resize(1024);
-  std::vector<protocol::Edit> many;
-  for (int i = 0; i < 100; ++i) many.insert(many.end(), edits.begin(), edits.end());
-  const auto events = accepted(many);  // some five pages
+  protocol::Edit edit = disc(0, 0, 1);
+  edit.is_path = true, edit.path.resize(1024);
+  const auto events = accepted(std::vector<protocol::Action>(300, edit));  // some five pages
   const auto restored = restore(*journal_of(events), {}, Trust::strict);
   ASSERT_TRUE(restored);
   EXPECT_EQ(restored->seq, 300u);
@@ -123,8 +121,10 @@ TEST(Restore, RefusesWhatNoRoomAccepts) {
     journal.change_event = change;
     return restore(journal, {}, Trust::strict).error().detail;
   };
-  EXPECT_EQ(refusal([](history::Event& event) { event.edit.layer = event.seq == 2 ? 1 : 0; }),
-            "events: seq 2: layer 1 of a map with 1");
+  EXPECT_EQ(refusal([](history::Event& event) {
+              std::get<protocol::Edit>(event.action).layer = event.seq == 2 ? 1 : 0;
+            }),
+            "events: seq 2: layer: 1 is outside 0 .. 0");
   EXPECT_EQ(refusal([](history::Event& event) { event.id = event.seq == 4 ? 101 : event.id; }),
             "events: seq 4: id 101 is not above the last of author 00000000000000a1");
   EXPECT_EQ(refusal([](history::Event& event) { event.id = event.seq == 1 ? 0 : event.id; }),
@@ -138,7 +138,7 @@ TEST(Restore, RefusesEditsBeyondAllLimits) {
   const auto refusal = [](double radius, double x, double y) {
     TamperedJournal journal(journal_of(ten_events()));
     journal.change_event = [=](history::Event& event) {
-      if (event.seq == 2) event.edit = disc(x, y, radius);
+      if (event.seq == 2) event.action = disc(x, y, radius);
     };
     return restore(journal, {}, Trust::strict).error().detail;
   };

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "protocol/chunk_record.hpp"
@@ -26,7 +27,37 @@ Identity sample_identity() {
   return identity;
 }
 
-SampleLog::SampleLog() : map_(history::make_map(sample_identity().settings)) {}
+namespace {
+
+/// The ninth event adds a layer, and now and then it is changed.
+protocol::LayerChange sample_layer_change(std::uint64_t seq) {
+  if (seq == 9) return {.layer = {}, .name = "três\"", .color = {}, .wall = {{-2.5, 0.1}}};
+  return {.layer = 2, .name = {}, .color = seq % 2 ? "#0000ff" : "#ff0000", .wall = {}};
+}
+
+protocol::Edit sample_edit(std::uint64_t seq) {
+  protocol::Edit edit;
+  edit.layer = static_cast<std::uint32_t>(seq % 5 == 0);
+  edit.fill = seq % 4 != 0;
+  edit.radius = 1.3 + static_cast<double>(seq % 3);
+  edit.path = {{static_cast<double>(seq * 7 % 31) - 15, static_cast<double>(seq * 3 % 17)}};
+  if (seq % 7 == 0) {
+    edit.is_path = true;
+    edit.path.push_back({0.1, -4.7});
+    edit.stroke = 12;
+  }
+  return edit;
+}
+
+protocol::Action sample_action(std::uint64_t seq) {
+  if (seq % 17 == 9) return sample_layer_change(seq);
+  return sample_edit(seq);
+}
+
+}  // namespace
+
+SampleLog::SampleLog()
+    : settings_(sample_identity().settings), map_(history::make_map(settings_)) {}
 
 std::vector<Event> SampleLog::more(std::size_t count) {
   std::vector<Event> added;
@@ -36,18 +67,11 @@ std::vector<Event> SampleLog::more(std::size_t count) {
                 .time_ms = 1'700'000'000'000 + static_cast<std::int64_t>(seq) * 17,
                 .author = seq % 3 == 0 ? 0xF000'0000'0000'0001 : seq % 3,
                 .id = static_cast<std::int64_t>(seq * 5),
-                .edit = {},
+                .action = sample_action(seq),
                 .hash = 0};
-    event.edit.layer = static_cast<std::uint32_t>(seq % 5 == 0);
-    event.edit.fill = seq % 4 != 0;
-    event.edit.radius = 1.3 + static_cast<double>(seq % 3);
-    event.edit.path = {{static_cast<double>(seq * 7 % 31) - 15, static_cast<double>(seq * 3 % 17)}};
-    if (seq % 7 == 0) {
-      event.edit.is_path = true;
-      event.edit.path.push_back({0.1, -4.7});
-      event.edit.stroke = 12;
-    }
-    for (const auto& key : history::apply(map_, event.edit).changed) changes_.push_back({key, seq});
+    protocol::apply(event.action, settings_);
+    for (const auto& key : history::apply(map_, event.action).changed)
+      changes_.push_back({key, seq});
     event.hash = map_.hash();
     added.push_back(event);
   }
@@ -88,7 +112,7 @@ std::vector<AuthorState> SampleLog::authors() const {
 void SampleLog::put_keyframe(Journal& journal) {
   auto done = journal.put_chunks(states(keyframe_));
   if (done) done = journal.put_authors(authors());
-  if (done) done = journal.put_keyframe({.seq = last_seq(), .map_hash = hash(), .time_ms = 99});
+  if (done) done = journal.put_keyframe(keyframe());
   if (!done) throw std::runtime_error(done.error().detail);
   keyframe_ = last_seq();
 }
@@ -112,12 +136,9 @@ namespace {
 std::string line_of(const Event& event) {
   std::string line = std::to_string(event.seq) + ' ' + std::to_string(event.time_ms) + ' ' +
                      std::to_string(event.author) + ' ' + std::to_string(event.id) + ' ' +
-                     protocol::hex(event.hash) + ' ' + std::to_string(event.edit.layer) +
-                     std::string(protocol::name(event.edit.stencil)) +
-                     (event.edit.fill ? " fill " : " empty ") + std::to_string(event.edit.radius);
-  for (const auto& point : event.edit.path)
-    line += ' ' + std::to_string(point.x) + ',' + std::to_string(point.y);
-  return line;
+                     protocol::hex(event.hash) + ' ' nlohmann::ordered_json action;
+  protocol::write_action(event.action, action);
+  return line + action.dump();
 }
 
 void read_events(Journal& journal, Contents& contents) {
@@ -141,7 +162,8 @@ void read_keyframes(Journal& journal, Contents& contents) {
   for (const Keyframe& keyframe : *keyframes) {
     contents.keyframes.push_back("keyframe " + std::to_string(keyframe.seq) + ' ' +
                                  protocol::hex(keyframe.map_hash) + ' ' +
-                                 std::to_string(keyframe.time_ms));
+                                 std::to_string(keyframe.time_ms) + ' ' +
+                                 protocol::write_settings(keyframe.settings).dump());
     const auto lines = chunk_lines(journal, keyframe.seq);
     if (!lines) {
       contents.failure = lines.error();

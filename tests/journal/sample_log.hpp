@@ -16,7 +16,7 @@ namespace earthwork::journal {
 /// Chunks of 8 x 8, two layers.
 Identity sample_identity();
 
-/// Executes edits drawn by lot, with the hashes that are true.
+/// Executes edits drawn by lot, and some changes of layers, with the hashes that are true.
 class SampleLog {
  public:
   SampleLog();
@@ -34,8 +34,14 @@ class SampleLog {
   std::vector<ChunkState> states(std::uint64_t since = 0) const;
   std::vector<AuthorState> authors() const;
   std::uint64_t hash() { return map_.hash(); }
+  const protocol::MapSettings& settings() const { return settings_; }
+  /// Of the last event.
+  Keyframe keyframe() {
+    return {.seq = last_seq(), .map_hash = hash(), .time_ms = 99, .settings = settings_};
+  }
 
  private:
+  protocol::MapSettings settings_;
   voxel::Map map_;
   std::vector<history::Event> events_;
   std::vector<std::pair<voxel::ChunkKey, std::uint64_t>> changes_;

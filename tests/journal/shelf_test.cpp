@@ -22,7 +22,7 @@ history::Event first_event() {
           .time_ms = 5,
           .author = 7,
           .id = 3,
-          .edit = {.radius = 2, .path = {{1, 2}}, .stroke = {}},
+          .action = protocol::Edit{.radius = 2, .path = {{1, 2}}, .stroke = {}},
           .hash = 9};
 }
 

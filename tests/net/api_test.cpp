@@ -44,6 +44,7 @@ struct ApiTest : testing::Test {
       void answered(std::vector<room::Reply>) override {}
       void deliver(room::Parcel) override {}
       void tell(room::Talk) override {}
+      void settings(room::SharedText) override {}
       void end(protocol::Bye) override {}
     };
     const auto room = room::find_map(atlas, map);

@@ -16,6 +16,7 @@ struct SurveyTest : testing::Test {
     void answered(std::vector<room::Reply>) override {}
     void deliver(room::Parcel) override {}
     void tell(room::Talk) override {}
+    void settings(room::SharedText) override {}
     void end(protocol::Bye) override {}
   };
 
@@ -27,7 +28,7 @@ struct SurveyTest : testing::Test {
   }
   void submit(room::Room& room, room::ViewerId viewer, protocol::MessageId id) {
     ASSERT_TRUE(room.submit(
-        viewer, {.id = id, .author = 1, .edit = {.radius = 3, .path = {{10, 10}}, .stroke = {}}}));
+        viewer, {.id = id, .author = 1, .action = protocol::Edit{.radius = 3, .path = {{10, 10}}, .stroke = {}}}));
   }
   Survey::Told note() {
     return [this](const MapTotals& totals) { told.push_back(totals); };

@@ -101,12 +101,17 @@ std::optional<Brush> maybe_brush() {
                .layer = *inRange(0u, 16u)};
 }
 
+std::optional<MapRect> maybe_rect() {
+  if (*inRange(0, 2) == 0) return std::nullopt;
+  return rect();
+}
+
 Presence presence() {
   Presence presence{.all = *inRange(0, 2) == 1, .users = {}, .left = {}, .cursors = {}};
   for (auto n = *inRange(0, 4); n > 0; --n) presence.users.push_back(user());
   for (auto n = *inRange(0, 4); n > 0; --n) presence.left.push_back(hex_text(16));
   for (auto n = *inRange(0, 4); n > 0; --n)
-    presence.cursors.push_back({hex_text(16), maybe_point(), maybe_brush()});
+    presence.cursors.push_back({hex_text(16), maybe_point(), maybe_brush(), maybe_rect()});
   return presence;
 }
 
@@ -114,9 +119,11 @@ Event event() {
   return {.seq = seq() + 1,
           .time_ms = *inRange<std::int64_t>(-kMaxInteger, kMaxInteger),
           .author = hex_text(16),
-          .edit = *any_edit(),
+          .action = *any_action(),
           .hash = hex_text(16)};
 }
+
+SettingsChanged settings_changed() { return {.seq = seq() + 1, .settings = *any_settings()}; }
 
 Failure failure() {
   Failure failure;
@@ -188,9 +195,28 @@ rc::Gen<Edit> any_edit() {
   });
 }
 
+rc::Gen<LayerChange> any_layer_change() {
+  return rc::gen::exec([] {
+    LayerChange change;
+    if (*inRange(0, 2)) change.layer = *inRange(0u, 16u);
+    if (*inRange(0, 2)) change.name = person();
+    if (*inRange(0, 2)) change.wall = {{-*inRange(0, 100) / 8.0, *inRange(1, 100) / 8.0}};
+    // Of a layer that is there something is said.
+    if (*inRange(0, 2) || (change.layer && !change.name && !change.wall)) change.color = color();
+    return change;
+  });
+}
+
+rc::Gen<Action> any_action() {
+  return rc::gen::exec([]() -> Action {
+    if (*inRange(0, 3) == 0) return *any_layer_change();
+    return *any_edit();
+  });
+}
+
 rc::Gen<ClientMessage> any_client_message() {
   return rc::gen::exec([]() -> ClientMessage {
-    switch (*inRange(0, 10)) {
+    switch (*inRange(0, 11)) {
       case 0:
         return hello();
       case 1:
@@ -206,9 +232,11 @@ rc::Gen<ClientMessage> any_client_message() {
       case 6:
         return Redo{id()};
       case 7:
-        return Cursor{maybe_point(), maybe_brush(), maybe_id()};
+        return Cursor{maybe_point(), maybe_brush(), maybe_rect(), maybe_id()};
       case 8:
         return Events{seq() + 1, maybe_id()};
+      case 9:
+        return LayerMessage{id(), *any_layer_change()};
       default:
         return Ping{maybe_id()};
     }
@@ -217,7 +245,7 @@ rc::Gen<ClientMessage> any_client_message() {
 
 rc::Gen<ServerMessage> any_server_message() {
   return rc::gen::exec([]() -> ServerMessage {
-    switch (*inRange(0, 9)) {
+    switch (*inRange(0, 10)) {
       case 0:
         return Welcome{hex_text(16), hex_text(32), *inRange(1, 65536), maybe_id()};
       case 1:
@@ -234,6 +262,8 @@ rc::Gen<ServerMessage> any_server_message() {
         return presence();
       case 7:
         return event();
+      case 8:
+        return settings_changed();
       default:
         return bye();
     }

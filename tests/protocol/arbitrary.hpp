@@ -10,6 +10,8 @@ namespace earthwork::protocol {
 
 rc::Gen<MapSettings> any_settings();
 rc::Gen<Edit> any_edit();
+rc::Gen<LayerChange> any_layer_change();
+rc::Gen<Action> any_action();
 rc::Gen<ClientMessage> any_client_message();
 rc::Gen<ServerMessage> any_server_message();
 /// Random indices and normals, chains among the sections; not a mesh anybody would draw.

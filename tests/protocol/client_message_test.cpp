@@ -28,6 +28,8 @@ TEST(ClientMessage, IsWrittenAsItIsRead) {
           R"({"type":"view","n":0,"all":true})",
           R"({"type":"edit","id":5,"stencil":"circle","fill":true,"x":1.0,"y":2.0,"radius":3.0})",
           R"({"type":"edit","id":6,"layer":2,"stencil":"square","fill":false,"path":[[0.0,0.5]],"radius":0.0,"stroke":1})",
+          R"({"type":"layer","id":6,"layer":0,"name":"Jö","color":"#aabbcc","wall":[-1.0,0.5]})",
+          R"({"type":"layer","id":6})",
           R"({"type":"undo","id":7})",
           R"({"type":"redo","id":8})",
           R"({"type":"cursor","x":0.25,"y":-1.0})",

@@ -88,26 +88,37 @@ TEST(Golden, ClientMessages) {
           Join{.map = "demo", .seq = {}, .id = 2},
           View{.n = 1, .rect = MapRect{-16, -16, 48, 48}, .have = {}, .id = 3},
           View{.n = 2, .rect = {}, .have = Have{"fedcba9876543210", 258, {0, 0, 64, 64}}, .id = {}},
-          EditMessage{4, stamp}, EditMessage{5, stroke}, Undo{6}, Redo{7},
-          Cursor{.at = MapPoint{1, 2}, .brush = {}, .id = {}},
-          Cursor{.at = MapPoint{1, 2}, .brush = Brush{StencilShape::square, 3, false, 1}, .id = 8},
-          Cursor{.at = {}, .brush = {}, .id = {}}, Events{.from_seq = 1, .id = 9}, Ping{10},
-          Leave{11}));
+          EditMessage{4, stamp}, EditMessage{5, stroke},
+          LayerMessage{6, {.layer = {}, .name = "roof", .color = "#aa3322", .wall = {{2, 2.5}}}},
+          Undo{6}, Redo{7},
+          Cursor{.at = MapPoint{1, 2}, .brush = {}, .view = {}, .id = {}},
+          Cursor{.at = MapPoint{1, 2},
+                 .brush = Brush{StencilShape::square, 3, false, 1},
+                 .view = {},
+                 .id = 8},
+          Cursor{.at = {}, .brush = {}, .view = {}, .id = {}}, Events{.from_seq = 1, .id = 9},
+          Ping{10}, Leave{11}));
 }
 
 TEST(Golden, ServerMessages) {
   const std::string session = "0123456789abcdef", key = "00112233445566778899aabbccddeeff";
   const User user{session, "Jö", "#aabbcc", "00112233445566ff"};
-  const Presence presence{.all = true,
-                          .users = {user},
-                          .left = {"00000000000000ff"},
-                          .cursors = {{session, MapPoint{1, 2}, Brush{}}, {session, {}, {}}}};
+  const Presence presence{
+      .all = true,
+      .users = {user},
+      .left = {"00000000000000ff"},
+      .cursors = {{session, MapPoint{1, 2}, Brush{}, {}}, {session, {}, {}, {}}}};
   const Edit stamp{.radius = 3, .path = {{10, -2.5}}, .stroke = {}};
   const Event event{.seq = 259,
                     .time_ms = 1'700'000'000'123,
                     .author = user.author,
-                    .edit = stamp,
+                    .action = stamp,
                     .hash = "fedcba9876543210"};
+  Event added = event;
+  added.seq = 260;
+  added.action = LayerChange{.layer = {}, .name = "roof", .color = {}, .wall = {}};
+  MapSettings two_layers;
+  two_layers.layers.push_back({.name = "roof"});
   const Failure far{Code::out_of_range, "radius: 600 voxels is beyond the limit of 512", "radius"};
   expect_golden("server.jsonl",
                 lines(Welcome{.session = session, .key = key, .protocol = 1, .id = 1},
@@ -118,6 +129,7 @@ TEST(Golden, ServerMessages) {
                              .users = {user},
                              .id = 2},
                       Applied{4, 259}, Rejected{5, far}, CaughtUp{1, 259}, Done{9}, presence, event,
+                      added, SettingsChanged{260, two_layers},
                       Bye{{Code::shutting_down, "the server ends", ""}, 1000}));
 }
 

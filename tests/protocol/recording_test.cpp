@@ -21,7 +21,7 @@ RecordedEvent event() {
           .time_ms = 1700000000123,
           .author = 0x00112233445566ff,
           .id = 4,
-          .edit = {.fill = true, .radius = 3, .path = {{10, -2.5}}, .stroke = {}},
+          .action = Edit{.fill = true, .radius = 3, .path = {{10, -2.5}}, .stroke = {}},
           .hash = 0x8a9a5b0123456789};
 }
 
@@ -45,7 +45,7 @@ RC_GTEST_PROP(Recording, ReadsWhatItWrites, ()) {
                          .time_ms = *rc::gen::inRange<std::int64_t>(-(1 << 30), 1 << 30),
                          .author = *rc::gen::arbitrary<std::uint64_t>(),
                          .id = *rc::gen::inRange<std::int64_t>(1, 1 << 30),
-                         .edit = *any_edit(),
+                         .action = *any_action(),
                          .hash = *rc::gen::arbitrary<std::uint64_t>()};
   const std::string line = write(recorded);
   RC_ASSERT(read_recorded_event(line) == recorded);
@@ -60,11 +60,15 @@ RC_GTEST_PROP(Recording, ReadsWhatItWrites, ()) {
 RC_GTEST_PROP(Recording, IsAScript, ()) {
   const RecordingHead head{.settings = *any_settings(), .epoch = 0xfedcba9876543210};
   RecordedEvent recorded = event();
-  recorded.edit = *any_edit();
+  recorded.action = *any_action();
   const auto script = read_script(write(head) + "\n" + write(recorded) + "\n");
   RC_ASSERT(script.has_value());
   RC_ASSERT(script->settings == head.settings);
-  RC_ASSERT(script->steps == std::vector<ScriptStep>{recorded.edit});
+  RC_ASSERT(script->steps.size() == 1);
+  if (const auto* edit = std::get_if<Edit>(&recorded.action))
+    RC_ASSERT(script->steps[0] == ScriptStep(*edit));
+  else
+    RC_ASSERT(script->steps[0] == ScriptStep(std::get<LayerChange>(recorded.action)));
 }
 
 TEST(Recording, WritesALineAsTheSpecificationShowsIt) {
@@ -79,6 +83,16 @@ TEST(RecordedEvent, MayHaveUnknownKeysAndNoKind) {
   EXPECT_EQ(read_recorded_event(with("kind", "")), event());
   EXPECT_EQ(read_recorded_event(with("kind", "\"edit\",\"note\":[1]")), event());
   EXPECT_EQ(read_recorded_event(std::string(kEvent) + "\r\n"), event());
+}
+
+TEST(RecordedEvent, MayBeAChangeOfLayers) {
+  RecordedEvent recorded = event();
+  recorded.action = LayerChange{.layer = {}, .name = "roof", .color = {}, .wall = {{0, 2.5}}};
+  const std::string line =
+      R"({"seq":7,"time":1700000000123,"author":"00112233445566ff","id":4,"kind":"layer",)"
+      R"("name":"roof","wall":[0.0,2.5],"hash":"8a9a5b0123456789"})";
+  EXPECT_EQ(write(recorded), line);
+  EXPECT_EQ(read_recorded_event(line), recorded);
 }
 
 TEST(RecordedEvent, NamesWhatIsMissing) {
@@ -118,9 +132,10 @@ TEST(RecordedEvent, WantsHashesInHexAndKnownKinds) {
 
 TEST(RecordedEvent, FitsIntoALineAtEveryLimit) {
   RecordedEvent longest = event();
-  longest.edit.is_path = true;
-  longest.edit.path.assign(1024, {-1.2345678901234567e-300, -1.2345678901234567e-300});
-  longest.edit.stroke = -9007199254740991;
+  auto& edit = std::get<Edit>(longest.action);
+  edit.is_path = true;
+  edit.path.assign(1024, {-1.2345678901234567e-300, -1.2345678901234567e-300});
+  edit.stroke = -9007199254740991;
   longest.seq = 9007199254740991;
   EXPECT_EQ(read_recorded_event(write(longest)), longest);
 }

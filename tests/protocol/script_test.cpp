@@ -24,6 +24,18 @@ TEST(ScriptLine, IsSettingsAnEditOrAWait) {
   EXPECT_EQ(std::get<Wait>(*read_script_line(R"({"wait_ms":250})")).ms, 250);
 }
 
+TEST(ScriptLine, IsAChangeOfLayersWhenItsKindSaysSo) {
+  const auto line = read_script_line(R"({"kind":"layer","layer":1,"name":"roof","seq":7})");
+  ASSERT_TRUE(line) << line.error().detail;
+  EXPECT_EQ(std::get<LayerChange>(*line),
+            (LayerChange{.layer = 1, .name = "roof", .color = {}, .wall = {}}));
+  EXPECT_EQ(std::get<LayerChange>(*read_script_line(R"({"kind":"layer"})")), LayerChange{});
+  EXPECT_EQ(read_script_line(R"({"kind":"layer","layer":1})").error().field, "layer");
+  EXPECT_EQ(std::get<Edit>(*read_script_line(std::string(R"({"kind":"edit",)") + (kEdit + 1))),
+            std::get<Edit>(*read_script_line(kEdit)));
+  EXPECT_EQ(read_script_line(R"({"kind":"undo"})").error().code, Code::not_supported);
+}
+
 TEST(ScriptLine, BoundsAWait) {
   EXPECT_TRUE(read_script_line(R"({"wait_ms":3600000})"));
   EXPECT_EQ(read_script_line(R"({"wait_ms":3600001})").error().detail,
@@ -34,7 +46,8 @@ TEST(ScriptLine, BoundsAWait) {
 TEST(ScriptLine, NamesWhatItIsNot) {
   for (const char* line : {R"({"fill":true})", R"({"x":1,"y":2,"radius":3})", R"({"path":[[1,2]]})",
                            R"({"layer":0,"note":"no stencil"})", R"({"stroke":1})"})
-    EXPECT_EQ(read_script_line(line).error().detail, "not a line with map, stencil or wait_ms");
+    EXPECT_EQ(read_script_line(line).error().detail,
+              "not a line with map, stencil, wait_ms or kind");
   EXPECT_EQ(read_script_line("7").error().code, Code::bad_message);
   EXPECT_EQ(read_script_line(R"({"generate":"rings"})").error().code, Code::not_supported);
 }
@@ -52,20 +65,22 @@ TEST(Script, SkipsNotesLikeBlankLines) {
   EXPECT_EQ(script->settings->chunk_resolution, 8);
   ASSERT_EQ(script->steps.size(), 2u);
   EXPECT_EQ(refusal(note + "{\"fill\":true}"),
-            "bad_message: line 2: not a line with map, stencil or wait_ms");
+            "bad_message: line 2: not a line with map, stencil, wait_ms or kind");
 }
 
 TEST(Script, IsReadLineByLine) {
   const std::string text = std::string("\n{\"map\":{\"chunks\":[0,0,2,2],\"wall\":[-1,0]}}\r\n") +
-                           kEdit + "\n  \t\r\n{\"wait_ms\":5}\n" + kEdit;
+                           kEdit + "\n  \t\r\n{\"wait_ms\":5}\n" + kEdit +
+                           "\n{\"kind\":\"layer\",\"name\":\"roof\"}";
   const auto script = read_script(text);
   ASSERT_TRUE(script);
   ASSERT_TRUE(script->settings);
   EXPECT_EQ(script->settings->chunks, (std::array<std::int32_t, 4>{0, 0, 2, 2}));
-  ASSERT_EQ(script->steps.size(), 3u);
+  ASSERT_EQ(script->steps.size(), 4u);
   EXPECT_EQ(std::get<Edit>(script->steps[0]).path, (std::vector<MapPoint>{{1, 2}}));
   EXPECT_EQ(std::get<Wait>(script->steps[1]).ms, 5);
   EXPECT_TRUE(std::holds_alternative<Edit>(script->steps[2]));
+  EXPECT_EQ(std::get<LayerChange>(script->steps[3]).name, "roof");
 }
 
 TEST(Script, MayHaveNoSettingsAndNoSteps) {

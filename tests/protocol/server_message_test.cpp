@@ -28,6 +28,9 @@ TEST(ServerMessage, IsWrittenAsItIsRead) {
           R"({"type":"presence","all":true,"users":[{"session":"fedcba9876543210","name":"Jö","color":"#112233","author":"0123456789abcdef"}],"left":["0000000000000001"],"cursors":[{"session":"fedcba9876543210","x":1.0,"y":2.0}]})",
           R"({"type":"event","seq":1,"time":1700000000123,"author":"0123456789abcdef","kind":"edit","stencil":"circle","fill":true,"x":10.0,"y":-2.5,"radius":3.0,"hash":"00000000000000ff"})",
           R"({"type":"event","seq":9007199254740991,"time":-1,"author":"0123456789abcdef","kind":"edit","layer":2,"stencil":"square","fill":false,"path":[[0.0,0.5],[1.0,0.5]],"radius":0.0,"stroke":1,"hash":"00000000000000ff"})",
+          R"({"type":"event","seq":2,"time":1,"author":"0123456789abcdef","kind":"layer","layer":1,"name":"Jö","hash":"00000000000000ff"})",
+          R"({"type":"event","seq":3,"time":1,"author":"0123456789abcdef","kind":"layer","wall":[0.0,2.5],"hash":"00000000000000ff"})",
+          R"({"type":"settings","seq":3,"settings":{"chunk_resolution":32,"layers":[{"color":"#8a9a5b","name":"ground","wall":[-1.0,0.0]}],"max_feature_angle":135.0,"voxel_size":1.0}})",
           R"({"type":"bye","code":"bad_version","message":"no version in common"})",
           R"({"type":"bye","code":"internal","message":"later","retry_after_ms":500})",
       })

@@ -152,7 +152,9 @@ struct KeptAtlasTest : testing::Test {
   void paint(Room& room, protocol::MessageId id) {
     const auto viewer = room.join(std::make_shared<Onlooker>(), {}).value().viewer;
     EXPECT_TRUE(room.submit(
-        viewer, {.id = id, .author = 7, .edit = {.radius = 3, .path = {{5, 5}}, .stroke = {}}}));
+        viewer, {.id = id,
+                 .author = 7,
+                 .action = protocol::Edit{.radius = 3, .path = {{5, 5}}, .stroke = {}}}));
     run();
     room.leave(viewer);
   }
@@ -395,7 +397,9 @@ TEST_F(KeptAtlasTest, StopsOnceEveryJournalIsClosed) {
   const auto eyes = std::make_shared<Onlooker>();
   const auto viewer = room->join(eyes, {}).value().viewer;
   ASSERT_TRUE(room->submit(
-      viewer, {.id = 1, .author = 7, .edit = {.radius = 3, .path = {{5, 5}}, .stroke = {}}}));
+      viewer, {.id = 1,
+               .author = 7,
+               .action = protocol::Edit{.radius = 3, .path = {{5, 5}}, .stroke = {}}}));
   context.run(1);  // its turn: it is applied
   EXPECT_FALSE(atlas->stop(0ms));
   EXPECT_EQ(open("b").error().code, Code::shutting_down);

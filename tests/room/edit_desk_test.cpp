@@ -42,7 +42,8 @@ struct EditDeskTest : testing::Test {
   std::size_t most = 1'000'000;
   std::vector<Answer> answers;
   std::vector<std::pair<std::uint64_t, protocol::MessageId>> events;  // author, id
-  EditDesk desk{map,
+  SettingsBook book{settings};
+  EditDesk desk{{map, book},
                 Commits::later,
                 {},
                 10,

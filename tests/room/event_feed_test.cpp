@@ -26,7 +26,7 @@ std::vector<history::Event> some_events(std::uint64_t count, std::size_t points 
                       .time_ms = 1'700'000'000'000,
                       .author = 0xAB,
                       .id = 4,
-                      .edit = std::move(edit),
+                      .action = std::move(edit),
                       .hash = 0x8A9A5B});
   }
   return events;

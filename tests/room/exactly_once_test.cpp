@@ -184,7 +184,7 @@ void check_events(World& world, const std::vector<Client>& clients) {
     RC_ASSERT(client.answers.size() == client.edits.size());
     for (const auto& [id, seq] : client.answers) {
       RC_ASSERT(events[seq - 1].author == client.author && events[seq - 1].id == id);
-      RC_ASSERT(events[seq - 1].edit == client.edits.at(id));
+      RC_ASSERT(events[seq - 1].action == protocol::Action(client.edits.at(id)));
     }
   }
   RC_ASSERT(events.size() == sent);
@@ -200,7 +200,7 @@ void check_follower(World& world, const Onlooker& follower) {
   std::uint64_t seq = 0;
   for (const protocol::Event& event : follower.events()) {
     RC_ASSERT(event.seq == ++seq);
-    history::apply(map, event.edit);
+    history::apply(map, event.action);
     RC_ASSERT(protocol::hex(map.hash()) == event.hash);
   }
   RC_ASSERT(seq == world.room->info().seq);

@@ -17,6 +17,7 @@ struct Fragile final : Viewer {
   void answered(std::vector<Reply>) override { called("answered"); }
   void deliver(Parcel) override { called("deliver"); }
   void tell(Talk) override { called("tell"); }
+  void settings(SharedText) override { called("settings"); }
   void end(protocol::Bye bye) override {
     code = bye.failure.code;
     called("end");
@@ -36,6 +37,7 @@ struct GuardedViewerTest : testing::Test {
     viewer.answered({});
     viewer.deliver({});
     viewer.tell({});
+    viewer.settings({});
     viewer.guard([this] { inner->called("guard"); });
     broken = viewer.broken();
   }
@@ -46,7 +48,7 @@ struct GuardedViewerTest : testing::Test {
 
 TEST_F(GuardedViewerTest, HandsOnWhatItIsTold) {
   use("");
-  EXPECT_EQ(inner->calls, "answered deliver tell guard ");
+  EXPECT_EQ(inner->calls, "answered deliver tell settings guard ");
   EXPECT_FALSE(broken);
   EXPECT_EQ(broke, 0);
 }
@@ -61,9 +63,11 @@ TEST_F(GuardedViewerTest, EndsAViewerThatThrowsAndCallsItNoMore) {
   EXPECT_EQ(inner->calls, "answered deliver end ");
   use("tell");
   EXPECT_EQ(inner->calls, "answered deliver tell end ");
+  use("settings");
+  EXPECT_EQ(inner->calls, "answered deliver tell settings end ");
   use("guard");
-  EXPECT_EQ(inner->calls, "answered deliver tell guard end ");
-  EXPECT_EQ(broke, 4);
+  EXPECT_EQ(inner->calls, "answered deliver tell settings guard end ");
+  EXPECT_EQ(broke, 5);
 }
 
 TEST_F(GuardedViewerTest, BearsOneThatThrowsAtItsEndToo) {

@@ -35,7 +35,7 @@ struct HeraldTest : testing::Test {
     edit.path.resize(points);
     edit.is_path = true;
     const history::Event event{
-        .seq = past.last_seq() + 1, .time_ms = 0, .author = 7, .id = 1, .edit = edit};
+        .seq = past.last_seq() + 1, .time_ms = 0, .author = 7, .id = 1, .action = edit};
     ASSERT_TRUE(clerk.journal().append(event.seq - 1, {&event, 1}));
     past.add({&event, 1});
   }
@@ -271,7 +271,7 @@ TEST(Herald, TellsWhoseEventsCannotBeReadAndGoesOn) {
   EXPECT_NE(ann.talks[0].messages.back()->find(R"("code":"damaged")"), std::string::npos);
   EXPECT_EQ(bob.events().size(), 7u);
   herald.heard(1), herald.heard(2);
-  const history::Event next{.seq = 11, .time_ms = 0, .author = 7, .id = 1, .edit = disc(1, 1, 1)};
+  const history::Event next{.seq = 11, .time_ms = 0, .author = 7, .id = 1, .action = disc(1, 1, 1)};
   past.add({&next, 1});
   herald.tell_events();
   EXPECT_EQ(ann.talks.size(), 1u);
@@ -287,7 +287,7 @@ struct LongLog final : journal::Journal {
                                                        std::size_t most_bytes) override {
     std::vector<history::Event> page;
     for (std::size_t bytes = 0; bytes < most_bytes && from <= count_; bytes += 100)
-      page.push_back({.seq = from++, .time_ms = 0, .author = 7, .id = 1, .edit = disc(1, 1, 1)});
+      page.push_back({.seq = from++, .time_ms = 0, .author = 7, .id = 1, .action = disc(1, 1, 1)});
     return page;
   }
   protocol::Result<void> append(std::uint64_t, std::span<const history::Event>) override {
@@ -313,6 +313,7 @@ struct LongLog final : journal::Journal {
 struct Listener final : Viewer {
   void answered(std::vector<Reply>) override {}
   void deliver(Parcel) override {}
+  void settings(SharedText) override {}
   void end(protocol::Bye) override {}
   void tell(Talk talk) override {
     for (const SharedText& text : talk.messages) {

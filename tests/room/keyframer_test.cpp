@@ -92,8 +92,8 @@ struct Workshop {
       : clerk(std::make_unique<WatchedJournal>(std::move(journal), record)),
         start(journal::restore(clerk.journal(), {}, journal::Trust::strict).value()),
         map(start.map),
-        keyframer({map, [this](std::uint64_t author) { return authors[author]; }, clerk,
-                   back_at_once, *clock, meters},
+        keyframer({map, start.settings, [this](std::uint64_t author) { return authors[author]; },
+                   clerk, back_at_once, *clock, meters},
                   start, pace) {
     for (const AuthorState& author : start.authors) authors[author.author] = author;
     seq = start.seq;
@@ -106,7 +106,7 @@ struct Workshop {
                                .time_ms = 5,
                                .author = author,
                                .id = static_cast<std::int64_t>(seq),
-                               .edit = edit,
+                               .action = edit,
                                .hash = map.hash()};
     AuthorState& state = authors[author];
     state.author = author;
@@ -427,7 +427,7 @@ TEST(Keyframer, WhatComesForARoomThatIsGoneIsDropped) {
                      }};
   };
   auto keyframer = std::make_unique<Keyframer>(
-      Keyframer::Subject{start.map,
+      Keyframer::Subject{start.map, start.settings,
                          [](std::uint64_t a) {
                            return AuthorState{a, {{1, 1}}};
                          },

@@ -126,7 +126,7 @@ TEST_F(LedgerTest, IsFullAtItsMostBytes) {
     ASSERT_LE(i, 512);
     history::Event event;
     event.seq = ledger->accepted_seq() + 1;
-    event.edit.path.assign(1024, {0, 0});
+    std::get<protocol::Edit>(event.action).path.assign(1024, {0, 0});
     ledger->accept(std::move(event));
   }
   EXPECT_GE(ledger->accepted_seq(), 480u);  // 8 MiB of 16 KiB each, and a little more

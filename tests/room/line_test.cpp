@@ -15,10 +15,10 @@ constexpr std::uint64_t kHuge = 10'000;
 Line::Waiting edit(std::uint64_t author, protocol::MessageId id, std::uint64_t cost = 4,
                    std::size_t points = 1, std::int64_t since_ms = 0) {
   Line::Waiting waiting{.viewer = author,
-                        .command = {.id = id, .author = author, .edit = {}},
+                        .command = {.id = id, .author = author, .action = {}},
                         .cost = cost,
                         .since_ms = since_ms};
-  waiting.command.edit.path.resize(points);
+  std::get<protocol::Edit>(waiting.command.action).path.resize(points);
   return waiting;
 }
 

@@ -1,5 +1,7 @@
 #include "tests/room/onlooker.hpp"
 
+#include <gtest/gtest.h>
+
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -79,10 +81,17 @@ void Onlooker::answered(std::vector<Reply> replies) {
 
 void Onlooker::tell(Talk talk) { talks.push_back(std::move(talk)); }
 
+void Onlooker::settings(SharedText message) {
+  settings_told.push_back(
+      std::get<protocol::SettingsChanged>(protocol::parse_server_message(*message).value()));
+  known_layers = settings_told.back().settings.layers.size();
+}
+
 void Onlooker::deliver(Parcel parcel) {
   for (const auto* records : {&parcel.group_records, &parcel.first_seen}) {
     for (const RecordBytes& bytes : *records) {
       ChunkRecord record = after(bytes);
+      EXPECT_LT(record.key.layer, static_cast<std::int32_t>(known_layers));
       if (record.removed)
         chunks.erase(record.key);
       else
@@ -145,6 +154,19 @@ protocol::Edit disc(double x, double y, double radius, bool fill) {
 protocol::Edit box(double x, double y, double radius, bool fill) {
   protocol::Edit edit = disc(x, y, radius, fill);
   edit.stencil = protocol::StencilShape::square;
+  return edit;
+}
+
+protocol::LayerChange add_layer(const std::string& name) {
+  return {.layer = {}, .name = name, .color = {}, .wall = {}};
+}
+
+protocol::LayerChange rename_layer(std::uint32_t layer, const std::string& name) {
+  return {.layer = layer, .name = name, .color = {}, .wall = {}};
+}
+
+protocol::Edit on_layer(std::uint32_t layer, protocol::Edit edit) {
+  edit.layer = layer;
   return edit;
 }
 

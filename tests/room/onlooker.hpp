@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "protocol/chunk_record.hpp"
@@ -15,6 +16,8 @@ class Onlooker final : public Viewer {
  public:
   void answered(std::vector<Reply> replies) override;
   void tell(Talk talk) override;
+  void settings(SharedText message) override;
+  /// Expects no chunk of a layer that it was not told of.
   void deliver(Parcel parcel) override;
   void end(protocol::Bye why) override { bye = std::move(why); }
 
@@ -32,6 +35,8 @@ class Onlooker final : public Viewer {
   std::vector<protocol::Rejected> refusals;
   std::vector<Talk> talks;
   std::vector<Parcel> parcels;
+  std::vector<protocol::SettingsChanged> settings_told;
+  std::size_t known_layers = protocol::kMaxLayers;  ///< Fewer once somebody says so.
   std::optional<protocol::Bye> bye;
   std::map<protocol::ChunkKey, protocol::ChunkRecord> chunks;
 
@@ -50,9 +55,12 @@ class Onlooker final : public Viewer {
 [[nodiscard]] std::string torn_rim(
     const std::map<protocol::ChunkKey, protocol::ChunkRecord>& chunks, int resolution);
 
-/// Edits and views, shortly.
+/// Edits, changes of layers and views, shortly.
 [[nodiscard]] protocol::Edit disc(double x, double y, double radius, bool fill = true);
 [[nodiscard]] protocol::Edit box(double x, double y, double radius, bool fill = true);
+[[nodiscard]] protocol::LayerChange add_layer(const std::string& name);
+[[nodiscard]] protocol::LayerChange rename_layer(std::uint32_t layer, const std::string& name);
+[[nodiscard]] protocol::Edit on_layer(std::uint32_t layer, protocol::Edit edit);
 [[nodiscard]] protocol::View view_all(std::uint32_t n);
 [[nodiscard]] protocol::View view_rect(std::uint32_t n, protocol::MapRect rect);
 

@@ -23,8 +23,8 @@ using journal::TamperedJournal;
 std::vector<Event> numbered(std::uint64_t from, std::uint64_t to, std::size_t points = 1) {
   std::vector<Event> events;
   for (std::uint64_t seq = from; seq <= to; ++seq) {
-    Event event{.seq = seq, .time_ms = 0, .author = 7, .id = 1, .edit = {}, .hash = seq * 3};
-    event.edit.path.resize(points);
+    Event event{.seq = seq, .time_ms = 0, .author = 7, .id = 1, .action = {}, .hash = seq * 3};
+    std::get<protocol::Edit>(event.action).path.resize(points);
     events.push_back(std::move(event));
   }
   return events;

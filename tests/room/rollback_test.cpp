@@ -154,7 +154,8 @@ TEST(Rollback, EverybodyEndsWithWhatIsStored) {
     // And meshes that were never taken back are the same.
     World anew;
     World::Guest painter = anew.enter();
-    for (const history::Event& event : world.events()) anew.edit(painter, event.edit);
+    for (const history::Event& event : world.events())
+      anew.edit(painter, std::get<protocol::Edit>(event.action));
     RC_ASSERT(anew.mesh_hash() == hash);
   }));
 }

@@ -55,7 +55,7 @@ TEST_F(RoomTest, KeepsWhatItAccepted) {
   EXPECT_EQ(kept[1].time_ms, 5000);
   EXPECT_EQ(kept[1].author, 7u);
   EXPECT_EQ(kept[1].id, 2);
-  EXPECT_EQ(kept[1].edit, box(20, 4, 3));
+  EXPECT_EQ(kept[1].action, protocol::Action(box(20, 4, 3)));
   EXPECT_EQ(kept[1].hash, room->info().hash);
 
   voxel::Map again = history::make_map(room->settings());

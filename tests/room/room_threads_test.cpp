@@ -41,6 +41,7 @@ struct Eager final : Viewer {
     });
   }
   void tell(Talk) override {}
+  void settings(SharedText) override {}
   void end(protocol::Bye) override {}
 
   Room& room;

@@ -81,6 +81,7 @@ TEST_F(SeatsTest, WhoThrowsIsALeaverAtOnce) {
     void answered(std::vector<Reply>) override { throw std::runtime_error("broken"); }
     void deliver(Parcel) override {}
     void tell(Talk) override {}
+    void settings(SharedText) override {}
     void end(protocol::Bye) override {}
   };
   int broke = 0;

@@ -13,7 +13,7 @@ const protocol::MapSettings kSettings{.chunk_resolution = 8, .chunks = {}};
 
 Line::Waiting waiting(const protocol::Edit& edit, std::uint64_t author = 7) {
   return {.viewer = 1,
-          .command = {.id = 1, .author = author, .edit = edit},
+          .command = {.id = 1, .author = author, .action = edit},
           .cost = rows_visited(edit, kSettings)};
 }
 

@@ -23,6 +23,7 @@ struct Broken final : Viewer {
   void answered(std::vector<Reply>) override { called(At::answered); }
   void deliver(Parcel) override { called(At::deliver); }
   void tell(Talk) override { called(At::tell); }
+  void settings(SharedText) override {}
   void end(protocol::Bye bye) override { code = bye.failure.code; }
   void called(At here) const {
     if (here == at) throw std::runtime_error("broken");
@@ -105,7 +106,7 @@ TEST_F(TalkTest, EventsComeFromWhereTheyAreAskedFor) {
   context.run();
   ASSERT_EQ(bob.eyes->events().size(), 2u);
   EXPECT_EQ(bob.eyes->events()[0].seq, 2u);
-  EXPECT_EQ(bob.eyes->events()[0].edit, disc(5, 4, 2));
+  EXPECT_EQ(bob.eyes->events()[0].action, protocol::Action(disc(5, 4, 2)));
   EXPECT_EQ(bob.eyes->events()[0].author, "0000000000000007");
   room->heard(bob.id);
   ASSERT_TRUE(submit(ann, disc(7, 4, 2)));

@@ -36,10 +36,11 @@ World::Guest World::enter(const char* name, std::uint64_t author) {
   Guest guest;
   const std::uint64_t session = ++last_session;
   guest.author = author != 0 ? author : session;
-  guest.id =
+  const auto entrance =
       room->join(guest.eyes, {protocol::hex(session), name, "#102030", protocol::hex(guest.author)})
-          .value()
-          .viewer;
+          .value();
+  guest.id = entrance.viewer;
+  guest.eyes->known_layers = entrance.joined.settings.layers.size();
   return guest;
 }
 
@@ -48,12 +49,12 @@ void World::look(Guest& guest, const protocol::View& view) {
   settle(guest);
 }
 
-protocol::Result<void> World::submit(Guest& guest, protocol::Edit edit) {
-  return room->submit(guest.id, {++guest.last_message, guest.author, std::move(edit)});
+protocol::Result<void> World::submit(Guest& guest, protocol::Action action) {
+  return room->submit(guest.id, {++guest.last_message, guest.author, std::move(action)});
 }
 
-void World::edit(Guest& guest, protocol::Edit edit) {
-  must(submit(guest, std::move(edit)));
+void World::edit(Guest& guest, protocol::Action action) {
+  must(submit(guest, std::move(action)));
   context.run();
 }
 

@@ -30,9 +30,9 @@ struct World {
   Guest enter(const char* name = "ann", std::uint64_t author = 0);
   /// Throws when the view is refused; then the guest takes all that comes.
   void look(Guest& guest, const protocol::View& view);
-  protocol::Result<void> submit(Guest& guest, protocol::Edit edit);
-  /// Throws when the edit is refused; runs the strand.
-  void edit(Guest& guest, protocol::Edit edit);
+  protocol::Result<void> submit(Guest& guest, protocol::Action action);
+  /// Throws when it is refused; runs the strand.
+  void edit(Guest& guest, protocol::Action action);
   /// The guest takes parcels until none comes any more.
   void settle(Guest& guest);
   /// Of the room, every mesh up to date.
