@@ -65,14 +65,17 @@ export class Viewer {
   // Draws now, so that the canvas can be read in the same task.
   draw() { this.#module.ccall('earthwork_screenshot', null, [], []); }
 
+  // What was measured, as figures.hpp says.
+  figures() { return JSON.parse(this.#module.ccall('earthwork_figures', 'string', [], [])); }
+
   #call(name, argument) {
     const answer = this.#module.ccall(name, 'string', ['string'], [JSON.stringify(argument)]);
     return answer ? JSON.parse(answer) : null;
   }
 
   #hear(parts) {
+    Object.assign(this.#parts, parts);
     for (const [name, part] of Object.entries(parts)) {
-      this.#parts[name] = part;
       for (const listener of this.#listeners.get(name) ?? []) listener(part);
     }
   }

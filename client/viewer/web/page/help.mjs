@@ -2,10 +2,10 @@
 import { byId, dialog, make } from './dom.mjs';
 
 const GESTURES = [
-  ['With a mouse', [
+  ['With a mouse or pen', [
     ['Drag', 'Paint or move, as chosen'],
-    ['Right drag', 'Turn and tilt'],
-    ['Middle drag', 'Move'],
+    [['Middle drag', 'Shift + drag', 'Space + drag'], 'Move'],
+    [['Right drag', 'Alt + drag'], 'Turn and tilt'],
     ['Wheel', 'Zoom to the pointer'],
     ['Shift + wheel', 'Radius of the brush'],
   ]],

@@ -14,6 +14,10 @@ export function say(words, urgently = false) {
 // Written for some seconds, longer while the pointer or the focus is on it.
 export function toast(words, kind = 'said') {
   const list = byId('toasts');
+  // Said again, it is not written twice.
+  for (const other of list.querySelectorAll('p')) {
+    if (other.textContent === words) other.parentElement.remove();
+  }
   const item = make('div', { className: `toast ${kind}` }, make('p', {}, words));
   let timer;
   const stay = () => clearTimeout(timer);

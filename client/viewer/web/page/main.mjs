@@ -46,6 +46,7 @@ function showPanels() {
 function fail(words) {
   const fatal = byId('fatal');
   fatal.hidden = false;
+  byId('progress').hidden = true;
   setText(fatal, words);
   setText(byId('status-connection'), 'No picture');
 }
@@ -59,6 +60,7 @@ function useMap(name) {
 
 async function start(name, place) {
   useMap(name);
+  byId('progress').hidden = false;
   try {
     await viewer.start(
       { map: name, ...who, key, last_id: lastId(), seed: seed(), place: place ?? undefined });
@@ -115,10 +117,17 @@ async function firstMap() {
   return names.includes(FIRST_CHOICE) ? FIRST_CHOICE : names[0];
 }
 
+// For the console, and for who measures.
+window.earthwork = { figures: () => viewer.figures() };
+
 const openMaps = showPanels();
 viewer.onStop(() => fail('The viewer met an error and has stopped. What was acknowledged is safe; '
   + 'reload the page to go on.'));
 keepLink();
 const name = mapOf(location.search) ?? await firstMap();
-if (name) await start(name, placeOf(location.hash));
-else await openMaps();
+if (name) {
+  await start(name, placeOf(location.hash));
+} else {
+  byId('progress').hidden = true;
+  await openMaps();
+}

@@ -54,6 +54,8 @@ export function foldingPanels(onSeen) {
   }
   addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !sheet || document.querySelector('dialog[open]')) return;
+    // To the viewer it would mean something else.
+    event.stopImmediatePropagation();
     buttons.find((button) => button.dataset.sheet === sheet).focus();
     openSheet(null);
   });

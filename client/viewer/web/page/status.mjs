@@ -6,20 +6,16 @@ const NONE = '–';
 
 export function statusLine(viewer) {
   const progress = byId('progress');
-  let shown = false;
 
   function wait() {
     const [status, connection] = [viewer.part('status'), viewer.part('connection')];
-    const waits = viewer.started && connection?.state !== 'ended' && connection?.state !== 'lost'
-      && !status?.caught_up;
+    const waits = connection?.state !== 'ended' && connection?.state !== 'lost' && !status?.caught_up;
     progress.hidden = !waits;
     const chunks = status?.chunks ?? 0;
     progress.setAttribute('aria-valuetext', `${whole(chunks)} chunks`);
     const words = byId('status-progress');
     words.hidden = !waits;
     setText(words, chunks > 0 ? `Loading, ${whole(chunks)} chunks` : 'Loading');
-    if (shown && !waits) document.body.dataset.seen = 'true';
-    shown = waits;
   }
   viewer.on('connection', wait);
   viewer.on('status', (part) => {
