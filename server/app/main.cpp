@@ -32,6 +32,9 @@ void add_serve(CLI::App& app, earthwork::app::ServeFlags& flags) {
                    "Seconds after which a map that nobody uses leaves memory, 1 to 86400")
       ->check(CLI::Range(1, 86'400))
       ->capture_default_str();
+  serve->add_option("--page", flags.page,
+                    "Folder with the viewer's page as its build left it, served at /; "
+                    "../share/earthwork/page beside this program where it is there");
   serve->add_flag("--demo", flags.demo,
                   "Paint a map named demo that shows something, where there is none");
   serve->add_flag("--insecure-open", flags.insecure_open,

@@ -10,11 +10,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <future>
+#include <memory>
+#include <optional>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "server/app/answer.hpp"
 #include "server/app/demo.hpp"
 #include "server/journal/shelf.hpp"
+#include "server/net/page_files.hpp"
 #include "server/net/server.hpp"
 
 namespace earthwork::app {
@@ -64,6 +69,26 @@ protocol::Result<std::shared_ptr<journal::Shelf>> take_shelf(const ServeFlags& f
   return journal::make_file_shelf(std::move(*folder));
 }
 
+/// The folder that was named, or the one that is installed with the program, if it is.
+std::optional<std::filesystem::path> page_folder(const ServeFlags& flags) {
+  if (!flags.page.empty()) return flags.page;
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto folder = program.parent_path().parent_path() / "share" / "earthwork" / "page";
+  if (error || !std::filesystem::is_directory(folder, error)) return std::nullopt;
+  return folder;
+}
+
+/// Null when there is no page.
+protocol::Result<std::shared_ptr<const net::PageFiles>> take_page(const ServeFlags& flags) {
+  const auto folder = page_folder(flags);
+  if (!folder) return nullptr;
+  auto page = net::PageFiles::read(*folder);
+  if (!page) return tl::unexpected<protocol::Failure>(std::move(page.error()));
+  spdlog::info("the page is that of {}", std::filesystem::absolute(*folder).string());
+  return std::make_shared<const net::PageFiles>(std::move(*page));
+}
+
 void say_where_maps_are(const ServeFlags& flags) {
   if (flags.memory)
     spdlog::info("in memory: maps are gone when the server ends");
@@ -91,6 +116,9 @@ int serve(const ServeFlags& flags) {
                       " is reachable from other machines, and anybody there could paint and delete "
                       "maps; --insecure-open allows it");
 
+  const auto page = take_page(flags);
+  if (!page) return refuse(kUsage, "--page: " + page.error().detail);
+
   const sigset_t signals = hold_end_signals();
   allow_many_connections();
   const auto shelf = take_shelf(flags);
@@ -99,7 +127,8 @@ int serve(const ServeFlags& flags) {
                                     .allowed_hosts = flags.allow_hosts,
                                     .limits = {},
                                     .shelf = *shelf,
-                                    .idle = std::chrono::seconds(flags.idle_seconds)});
+                                    .idle = std::chrono::seconds(flags.idle_seconds),
+                                    .page = *page});
   if (!server) return refuse(kUsage, server.error().detail);
   if (flags.demo) {
     std::promise<protocol::Result<void>> added;

@@ -97,11 +97,12 @@ protocol::Result<NewMap> read_new_map(std::string_view body) {
 
 }  // namespace
 
-Api::Api(room::Atlas& atlas, Workers& workers, Access access)
+Api::Api(room::Atlas& atlas, Workers& workers, Access access, std::shared_ptr<const PageFiles> page)
     : atlas_(atlas),
       survey_(std::make_shared<Survey>(atlas)),
       workers_(workers),
-      access_(std::move(access)) {}
+      access_(std::move(access)),
+      page_(std::move(page)) {}
 
 std::optional<HttpResponse> Api::refuse_access(const HttpRequest& request) const {
   // Of a header sent twice the values come with a comma between them, which no name has.
@@ -120,9 +121,9 @@ void Api::handle(HttpRequest request, Respond respond) const {
   if (!target) return respond(not_found(request.target));
 
   const auto& path = target->segments;
-  if (path.empty() || path == std::vector<std::string>{"healthz"}) {
+  if (path == std::vector<std::string>{"healthz"}) {
     if (!check_method(request, {"GET"}, respond)) return;
-    return respond(path.empty() ? front_page() : text_response("ok\n"));
+    return respond(text_response("ok\n"));
   }
   if (path == std::vector<std::string>{"ws"}) {
     if (!check_method(request, {"GET"}, respond)) return;
@@ -139,7 +140,18 @@ void Api::handle(HttpRequest request, Respond respond) const {
     if (path.size() == 2) return handle_maps(request, std::move(respond));
     if (path.size() <= 4) return handle_map(request, *target, std::move(respond));
   }
-  respond(not_found(request.target));
+  auto page = page_answer(request, *target);
+  if (!page) return respond(not_found(request.target));
+  if (check_method(request, {"GET"}, respond)) respond(std::move(*page));
+}
+
+std::optional<HttpResponse> Api::page_answer(const HttpRequest& request,
+                                             const Target& target) const {
+  if (target.segments.size() > 1) return std::nullopt;
+  if (page_)
+    return page_->answer(target.segments.empty() ? "index.html" : target.segments[0], request);
+  if (target.segments.empty()) return front_page();
+  return std::nullopt;
 }
 
 void Api::handle_maps(const HttpRequest& request, Respond respond) const {

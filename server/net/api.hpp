@@ -7,6 +7,7 @@
 #include "server/net/access.hpp"
 #include "server/net/http_message.hpp"
 #include "server/net/map_question.hpp"
+#include "server/net/page_files.hpp"
 #include "server/net/target.hpp"
 #include "server/net/workers.hpp"
 #include "server/room/atlas.hpp"
@@ -21,8 +22,10 @@ inline constexpr std::size_t kMaxBodyBytes = 64 * 1024;
 /// Any thread.
 class Api {
  public:
-  /// Atlas and workers must outlive it, and every request.
-  Api(room::Atlas& atlas, Workers& workers, Access access);
+  /// Atlas and workers must outlive it, and every request. `page` is served at '/'; null: a page
+  /// there tells how to get it.
+  Api(room::Atlas& atlas, Workers& workers, Access access,
+      std::shared_ptr<const PageFiles> page = nullptr);
 
   /// Answers through `respond`, exactly once, now or later. Requests that this server's name
   /// was not used for, or that come from another site, are answered 403.
@@ -34,6 +37,9 @@ class Api {
   [[nodiscard]] std::optional<HttpResponse> refuse_access(const HttpRequest& request) const;
 
  private:
+  /// '/', or a file of the page; nothing for every other path.
+  [[nodiscard]] std::optional<HttpResponse> page_answer(const HttpRequest& request,
+                                                        const Target& target) const;
   void handle_maps(const HttpRequest& request, Respond respond) const;
   void handle_map(const HttpRequest& request, const Target& target, Respond respond) const;
   void create_map(const HttpRequest& request, Respond respond) const;
@@ -49,6 +55,7 @@ class Api {
   const std::shared_ptr<Survey> survey_;
   Workers& workers_;
   Access access_;
+  const std::shared_ptr<const PageFiles> page_;
 };
 
 }  // namespace earthwork::net

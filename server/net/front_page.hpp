@@ -1,4 +1,4 @@
-/// What a browser is shown at '/'.
+/// What a browser is shown at '/' by a server that has no viewer to serve.
 #pragma once
 
 #include "server/net/http_message.hpp"

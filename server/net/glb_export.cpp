@@ -17,19 +17,6 @@ std::string export_tag(const protocol::MapSettings& settings, std::uint64_t mesh
          std::to_string(protocol::kExporterVersion) + "\"";
 }
 
-bool names_tag(std::string_view header, std::string_view tag) {
-  while (!header.empty()) {
-    const std::size_t comma = header.find(',');
-    std::string_view one = header.substr(0, comma);
-    header = comma == std::string_view::npos ? std::string_view{} : header.substr(comma + 1);
-    one.remove_prefix(std::min(one.find_first_not_of(" \t"), one.size()));
-    one = one.substr(0, one.find_last_not_of(" \t") + 1);
-    if (one.starts_with("W/")) one.remove_prefix(2);
-    if (one == tag || one == "*") return true;
-  }
-  return false;
-}
-
 protocol::Result<std::string> make_glb(const protocol::MapSettings& settings,
                                        std::span<const room::RecordBytes> records) {
   std::list<protocol::ChunkRecord> decoded;

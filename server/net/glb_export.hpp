@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "protocol/result.hpp"
 #include "protocol/settings.hpp"
@@ -15,9 +14,6 @@ namespace earthwork::net {
 /// The file's ETag, quotes included: the same for the same bytes, and known without making them.
 [[nodiscard]] std::string export_tag(const protocol::MapSettings& settings,
                                      std::uint64_t mesh_hash);
-
-/// Whether an If-None-Match header has `tag` in its list, or '*'.
-[[nodiscard]] bool names_tag(std::string_view header, std::string_view tag);
 
 /// A binary glTF file of all `records`. Fails as `protocol::write_glb` does. Takes long: holds the
 /// meshes once beside the result.

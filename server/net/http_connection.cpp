@@ -13,6 +13,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <iterator>
@@ -38,6 +39,8 @@ using protocol::Code;
 // A body that takes memory as it comes, and none for what its length claims.
 using Body = http::basic_dynamic_body<beast::flat_buffer>;
 using Parser = http::request_parser<Body>;
+// An answer's bytes are sent from where they are: a file of the page is there once, for all.
+using BytesElsewhere = http::span_body<const char>;
 using Request = http::request<Body>;
 
 constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
@@ -59,6 +62,7 @@ HttpRequest plain(const Request& request) {
           .host = header(request, http::field::host),
           .origin = header(request, http::field::origin),
           .content_type = header(request, http::field::content_type),
+          .accept_encoding = header(request, http::field::accept_encoding),
           .if_none_match = header(request, http::field::if_none_match),
           .body = beast::buffers_to_string(request.body().data())};
 }
@@ -223,18 +227,18 @@ awaitable<bool> HttpConnection::upgrade(Request request, Connections::Id id) {
 
 awaitable<bool> HttpConnection::answer(HttpResponse response, bool keep_alive, bool with_body) {
   keep_alive = keep_alive && !stopping_;
-  http::response<http::string_body> message{static_cast<http::status>(response.status), 11};
+  http::response<BytesElsewhere> message{static_cast<http::status>(response.status), 11};
   message.set(http::field::server, "earthwork");
   message.set(http::field::cache_control, "no-cache");
   if (!response.content_type.empty()) message.set(http::field::content_type, response.content_type);
   for (const auto& [name, value] : response.headers) message.set(name, value);
   message.keep_alive(keep_alive);
-  message.body() = std::move(response.body);
+  message.body() = {response.bytes().data(), response.bytes().size()};
   message.prepare_payload();
-  if (!with_body) message.body().clear();
+  if (!with_body) message.body() = {};
 
   // Part by part: a slow reader may take its time as long as it takes anything.
-  http::response_serializer<http::string_body> serializer{message};
+  http::response_serializer<BytesElsewhere> serializer{message};
   while (!serializer.is_done()) {
     stream_.expires_after(service_.limits.silence);
     const auto [error, bytes] = co_await http::async_write_some(stream_, serializer, kAwait);

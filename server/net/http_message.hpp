@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -15,15 +16,21 @@ namespace earthwork::net {
 /// A header that was not sent is nullopt.
 struct HttpRequest {
   std::string method, target;
-  std::optional<std::string> host, origin, content_type, if_none_match;
+  std::optional<std::string> host, origin, content_type, accept_encoding, if_none_match;
   std::string body;
 };
+
+/// Bytes that many answers have in common.
+using SharedBody = std::shared_ptr<const std::string>;
 
 struct HttpResponse {
   int status = 200;
   std::string content_type;  ///< Empty: no body.
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
+  SharedBody shared_body{};  ///< Unless null it is sent in place of `body`.
+
+  [[nodiscard]] const std::string& bytes() const { return shared_body ? *shared_body : body; }
 };
 
 /// Takes the one answer to a request. Any thread may call it.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "server/net/entity_tag.hpp"
 #include "server/net/glb_export.hpp"
 #include "server/net/map_figures.hpp"
 #include "server/net/png.hpp"

@@ -152,7 +152,7 @@ protocol::Result<std::unique_ptr<Server>> Server::start(const ServerOptions& opt
         "cannot listen on " + options.listen.text() + ": " + error.code().message(), "listen");
   }
   running->api.emplace(running->atlas, running->workers,
-                       Access(running->address, options.allowed_hosts));
+                       Access(running->address, options.allowed_hosts), options.page);
   asio::co_spawn(running->acceptor.get_executor(), running->accept(), asio::detached);
 
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -9,6 +9,7 @@
 
 #include "protocol/result.hpp"
 #include "server/net/listen_address.hpp"
+#include "server/net/page_files.hpp"
 #include "server/net/session_limits.hpp"
 #include "server/room/atlas.hpp"
 
@@ -21,6 +22,7 @@ struct ServerOptions {
   SessionLimits limits;
   std::shared_ptr<journal::Shelf> shelf{};  ///< Where the maps are; null: in memory.
   std::chrono::milliseconds idle{60'000};   ///< After which a map that nobody uses is put away.
+  std::shared_ptr<const PageFiles> page{};  ///< Served at '/'; null: no viewer.
 };
 
 /// Any thread.

@@ -37,10 +37,14 @@ void ChatFeed::advance() {
   news_after_.clear();
 }
 
-SharedText ChatFeed::news_for(ViewerId id) {
+bool ChatFeed::owes(ViewerId id) const {
   const auto found = told_.find(id);
-  if (found == told_.end() || found->second == last_) return nullptr;
-  std::uint64_t& told = found->second;
+  return found != told_.end() && found->second < last_;
+}
+
+SharedText ChatFeed::news_for(ViewerId id) {
+  if (!owes(id)) return nullptr;
+  std::uint64_t& told = told_.at(id);
   auto news = news_after_.find(told);
   if (news == news_after_.end()) {
     // Those at the ends are for who comes in and for who keeps up.

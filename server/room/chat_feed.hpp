@@ -33,6 +33,8 @@ class ChatFeed {
   /// Lines were added since the last `advance`.
   [[nodiscard]] bool changed() const { return changed_; }
   void advance();
+  /// There is something to tell the viewer.
+  [[nodiscard]] bool owes(ViewerId id) const;
   /// The lines that come next for the viewer, as many as fit into kMaxChatTextBytes and at least
   /// one; it knows them from now on. Null when there are none.
   [[nodiscard]] SharedText news_for(ViewerId id);

@@ -22,7 +22,10 @@ void Herald::enter(ViewerId id, Viewer& viewer, protocol::User user) {
   listeners_[id].viewer = &viewer;
   board_.enter(id, std::move(user));
   chat_.enter(id);
-  talk_soon(id);  // ahead of what it will ask for, meshes say
+  // What was said comes right away, ahead of the meshes that it will ask for; the next tick, which
+  // tells of its coming, tells the others what of it they do not know.
+  if (chat_.changed()) chat_.advance();
+  if (chat_.owes(id)) talk_soon(id);
   tell_soon();
 }
 
