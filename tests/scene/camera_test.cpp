@@ -187,7 +187,8 @@ TEST(Camera, OrbitsAboutItsTarget) {
 TEST(Camera, DragsBeyondTheHorizonDoNothing) {
   Camera camera = camera_at({.target = {1, 2}, .zoom = 3, .tilt = kMaxTilt});
   const Camera::Place before = camera.place();
-  camera.pan({400, 300}, {400, -11});  // 0.5 degrees above the upper edge
+  ASSERT_TRUE(camera.ground({400, -9}));  // but hardly
+  camera.pan({400, 300}, {400, -9});
   EXPECT_EQ(camera.place(), before);
   camera.pan({400, 300}, {400, -400});
   EXPECT_EQ(camera.place(), before);
@@ -374,6 +375,13 @@ TEST(Camera, SeesNoBoxBesideThePicture) {
   const Camera turned = camera_at({.target = {0, 0}, .zoom = 10, .yaw = kPi / 4, .tilt = 1});
   EXPECT_FALSE(turned.sees({40, -60, 50, -50}, -1, 0)) << "behind, to the right";
   EXPECT_TRUE(turned.sees({-62, 58, -58, 62}, -1, 0)) << "far ahead";
+}
+
+TEST(Camera, SeesNoBoxBeforeACornerOfThePicture) {
+  const Camera camera =
+      camera_at({.target = {0, 0}, .zoom = 10, .yaw = kPi / 4}, {600, 600});  // corners at 42.4
+  EXPECT_FALSE(camera.sees({43, -200, 200, 200}, -0.1, 0)) << "though it is across every side";
+  EXPECT_TRUE(camera.sees({42, -200, 200, 200}, -0.1, 0));
 }
 
 }  // namespace

@@ -161,6 +161,17 @@ TEST(Stroke, LeavesOutWhatCannotReachABoundedMap) {
   EXPECT_TRUE(drag({.radius_voxels = 4}, {{-100, 10}, {-100, 20}}, settings).empty());
 }
 
+TEST(Stroke, OfALargeBrushOnSmallChunksIsSplitIntoMoreEdits) {
+  MapSettings settings;
+  settings.chunk_resolution = 8;
+  Stroke stroke({.radius_voxels = 50}, settings, 1, {0, 0}, kNow);
+  stroke.draw_to({10'000, 10'000}, kNow);
+  const auto edits = stroke.take();
+  EXPECT_GE(edits.size(), 5u);
+  EXPECT_LE(edits.size(), 12u);
+  for (const Edit& edit : edits) EXPECT_TRUE(protocol::check_edit(edit, settings));
+}
+
 TEST(Stroke, OfALayerThatIsNotThereIsNothing) {
   EXPECT_TRUE(drag({.layer = 1}, {{0, 0}, {10, 0}}).empty());
 }

@@ -110,6 +110,8 @@ TEST_F(HandTest, ShowsTheBrushUnderTheMouseUntilItLeaves) {
   press({30, 20});
   move({40, 20});
   EXPECT_EQ(hand.over(), (ScreenPoint{40, 20}));
+  mouse(PointerPhase::leave, {40, 20});
+  EXPECT_EQ(hand.over(), (ScreenPoint{40, 20})) << "a drag goes on outside";
   release({50, 20});
   EXPECT_EQ(hand.over(), (ScreenPoint{50, 20}));
   mouse(PointerPhase::leave, {0, 20});
@@ -197,6 +199,7 @@ TEST_F(HandTest, APenPaintsAndPalmsDoNot) {
   EXPECT_EQ(finger(PointerPhase::move, 7, {700, 300}), HandOutcome{});
   EXPECT_EQ(press({500, 300}), HandOutcome{}) << "nor does the mouse";
   EXPECT_EQ(move({510, 300}), HandOutcome{});
+  EXPECT_EQ(mouse(PointerPhase::cancel, {510, 300}), HandOutcome{});
   expect_acts(pen(PointerPhase::move, {410, 300}), {{Act::draw, {1, 0}}});
   EXPECT_EQ(finger(PointerPhase::release, 7, {700, 300}), HandOutcome{});
   expect_acts(pen(PointerPhase::release, {410, 300}), {{Act::end}});
@@ -222,6 +225,14 @@ TEST_F(HandTest, AFingerPaintsOnceItHasStayed) {
   now += milliseconds(1);
   expect_acts(finger(PointerPhase::move, 1, {402, 300}),
               {{Act::begin, {0, 0}}, {Act::draw, {0.2, 0}}});
+}
+
+TEST_F(HandTest, AFingerThatWaitedPaintsFromWhereItCameDown) {
+  finger(PointerPhase::press, 1, {400, 300});
+  EXPECT_EQ(finger(PointerPhase::move, 1, {405, 300}), HandOutcome{});
+  now += milliseconds(300);
+  expect_acts(finger(PointerPhase::release, 1, {405, 300}),
+              {{Act::begin, {0, 0}}, {Act::draw, {0.5, 0}}, {Act::end}});
 }
 
 TEST_F(HandTest, ATapIsOneStamp) {
@@ -303,8 +314,11 @@ TEST_F(HandTest, FingersThatMeetDoNotLeap) {
   finger(PointerPhase::press, 1, {400, 300});
   finger(PointerPhase::press, 2, {400, 300});
   finger(PointerPhase::move, 2, {404, 300});
+  finger(PointerPhase::move, 2, {412, 300});
   EXPECT_EQ(camera.place().zoom, 10);
   EXPECT_EQ(camera.place().yaw, 0);
+  finger(PointerPhase::move, 2, {424, 300});
+  EXPECT_NEAR(camera.place().zoom, 20, 1e-9);
 }
 
 TEST_F(HandTest, WithTheMoveToolAFingerMovesTheMap) {
@@ -385,6 +399,8 @@ TEST_F(HandTest, FineScrollingAddsUpToStepsOfTheRadius) {
   int steps = 0;
   for (int i = 0; i < 30; ++i) steps += wheel(0, -3.5, kShift).radius_steps;
   EXPECT_EQ(steps, 3);
+  wheel(0, -19, kShift);
+  EXPECT_EQ(wheel(0, 60, kShift).radius_steps, -1);
   wheel(0, -29, kShift);
   EXPECT_EQ(wheel(0, 2, kShift).radius_steps, 0) << "the other way it begins anew";
   EXPECT_EQ(wheel(0, 27.5, kShift).radius_steps, 0);
