@@ -5,19 +5,16 @@
 namespace earthwork::viewer::render {
 namespace {
 
-constexpr double kUnitsPerVoxel = 32768;
+constexpr float kVoxel = 1.0F / 32768;  // of a mesh's units; products with it are exact
 
 std::int32_t floor_div(std::int32_t a, std::int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 /// Chunks along a batch's side.
 std::int32_t side_chunks(int resolution) { return kBatchVoxels / resolution; }
 
-BatchVertex vertex_at(const protocol::MeshPoint& at, double x, double y) {
-  BatchVertex vertex;
-  vertex.x = static_cast<float>(x + at.x / kUnitsPerVoxel);
-  vertex.y = static_cast<float>(y + at.y / kUnitsPerVoxel);
-  vertex.top = 1;
-  return vertex;
+/// Exact: 24 bits hold the sum.
+BatchVertex vertex_at(const protocol::MeshPoint& at, float x, float y) {
+  return {x + static_cast<float>(at.x) * kVoxel, y + static_cast<float>(at.y) * kVoxel, {}, 1, 0};
 }
 
 /// Calls `visit(x, y, mesh)` for the batch's chunks that have one; x, y in voxels from its corner.
@@ -36,6 +33,48 @@ void for_each_chunk(const scene::Scene::Chunks& chunks, const BatchKey& batch, i
   }
 }
 
+/// Writes into arrays that are large enough.
+struct Writer {
+  BatchVertex* vertices;
+  std::uint32_t* next_index;
+  std::uint32_t vertex_count = 0;
+
+  void add_surface(const protocol::ChunkMesh& mesh, float x, float y) {
+    const std::uint32_t base = vertex_count;
+    for (const protocol::MeshPoint& at : mesh.vertices)
+      vertices[vertex_count++] = vertex_at(at, x, y);
+    for (const std::uint16_t index : mesh.triangles) *next_index++ = base + index;
+  }
+
+  /// Bottom, then top.
+  std::uint32_t add_post(BatchVertex vertex, const protocol::MeshNormal& normal) {
+    const std::uint32_t post = vertex_count;
+    vertex.normal = normal;
+    vertex.wall = 1;
+    vertex.top = 0;
+    vertices[vertex_count++] = vertex;
+    vertex.top = 1;
+    vertices[vertex_count++] = vertex;
+    return post;
+  }
+
+  void add_walls(const protocol::ChunkMesh& mesh, float x, float y) {
+    // Sections come in chains: where a smooth one goes on, the post between the two serves both.
+    const protocol::WallSection* before = nullptr;
+    std::uint32_t last_post = 0;
+    for (const protocol::WallSection& section : mesh.sections) {
+      const bool goes_on = before && before->b == section.a && before->normal_b == section.normal_a;
+      const std::uint32_t a =
+          goes_on ? last_post
+                  : add_post(vertex_at(mesh.vertices[section.a], x, y), section.normal_a);
+      const std::uint32_t b = add_post(vertex_at(mesh.vertices[section.b], x, y), section.normal_b);
+      for (const std::uint32_t corner : {a, b, b + 1, a, b + 1, a + 1}) *next_index++ = corner;
+      before = &section;
+      last_post = b;
+    }
+  }
+};
+
 }  // namespace
 
 BatchKey batch_of(const protocol::ChunkKey& chunk, int resolution) {
@@ -44,46 +83,21 @@ BatchKey batch_of(const protocol::ChunkKey& chunk, int resolution) {
 }
 
 void BatchMesh::rebuild(const scene::Scene::Chunks& chunks, const BatchKey& batch, int resolution) {
-  vertices.clear();
-  indices.clear();
-  for_each_chunk(chunks, batch, resolution,
-                 [&](int x, int y, const protocol::ChunkMesh& mesh) { add_surface(mesh, x, y); });
-  for_each_chunk(chunks, batch, resolution,
-                 [&](int x, int y, const protocol::ChunkMesh& mesh) { add_walls(mesh, x, y); });
-}
-
-void BatchMesh::add_surface(const protocol::ChunkMesh& mesh, double x, double y) {
-  const auto base = static_cast<std::uint32_t>(vertices.size());
-  for (const protocol::MeshPoint& at : mesh.vertices) vertices.push_back(vertex_at(at, x, y));
-  for (const std::uint16_t index : mesh.triangles) indices.push_back(base + index);
-}
-
-std::uint32_t BatchMesh::add_post(const protocol::MeshPoint& at, const protocol::MeshNormal& normal,
-                                  double x, double y) {
-  BatchVertex vertex = vertex_at(at, x, y);
-  vertex.normal = normal;
-  vertex.wall = 1;
-  const auto post = static_cast<std::uint32_t>(vertices.size());
-  vertex.top = 0;
-  vertices.push_back(vertex);
-  vertex.top = 1;
-  vertices.push_back(vertex);
-  return post;
-}
-
-void BatchMesh::add_walls(const protocol::ChunkMesh& mesh, double x, double y) {
-  // Sections come in chains: where a smooth one goes on, the post between the two serves both.
-  const protocol::WallSection* before = nullptr;
-  std::uint32_t last_post = 0;
-  for (const protocol::WallSection& section : mesh.sections) {
-    const bool goes_on = before && before->b == section.a && before->normal_b == section.normal_a;
-    const std::uint32_t a =
-        goes_on ? last_post : add_post(mesh.vertices[section.a], section.normal_a, x, y);
-    const std::uint32_t b = add_post(mesh.vertices[section.b], section.normal_b, x, y);
-    for (const std::uint32_t corner : {a, b, b + 1, a, b + 1, a + 1}) indices.push_back(corner);
-    before = &section;
-    last_post = b;
-  }
+  std::size_t most_vertices = 0, all_indices = 0;
+  for_each_chunk(chunks, batch, resolution, [&](int, int, const protocol::ChunkMesh& mesh) {
+    most_vertices += mesh.vertices.size() + 4 * mesh.sections.size();
+    all_indices += mesh.triangles.size() + 6 * mesh.sections.size();
+  });
+  vertices.resize(most_vertices);
+  indices.resize(all_indices);
+  Writer writer{vertices.data(), indices.data()};
+  for_each_chunk(chunks, batch, resolution, [&](int x, int y, const protocol::ChunkMesh& mesh) {
+    writer.add_surface(mesh, static_cast<float>(x), static_cast<float>(y));
+  });
+  for_each_chunk(chunks, batch, resolution, [&](int x, int y, const protocol::ChunkMesh& mesh) {
+    writer.add_walls(mesh, static_cast<float>(x), static_cast<float>(y));
+  });
+  vertices.resize(writer.vertex_count);
 }
 
 }  // namespace earthwork::viewer::render

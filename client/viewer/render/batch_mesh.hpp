@@ -41,12 +41,6 @@ struct BatchMesh {
 
   /// What the scene has of that batch now, in memory that is used again.
   void rebuild(const scene::Scene::Chunks& chunks, const BatchKey& batch, int resolution);
-
- private:
-  void add_surface(const protocol::ChunkMesh& mesh, double x, double y);
-  void add_walls(const protocol::ChunkMesh& mesh, double x, double y);
-  std::uint32_t add_post(const protocol::MeshPoint& at, const protocol::MeshNormal& normal,
-                         double x, double y);
 };
 
 }  // namespace earthwork::viewer::render

@@ -26,31 +26,29 @@ uniform mat4 clip;
 uniform vec2 offset;
 uniform vec2 heights;
 )";
+// Walls have a tone of their own. Corners are lit, not pixels: on a wall that costs nothing to see,
+// and most of what is drawn faces up.
 constexpr const char* kLitVertex = R"(
 uniform float bias;
-centroid out vec3 facing;
-centroid out vec2 rise;
+uniform vec3 color;
+centroid out vec3 shade;
+centroid out float depth;
 void main() {
   float height = kind.x > 0.5 ? heights.y : heights.x;
   gl_Position = clip * vec4(offset + position, height, 1.0);
   gl_Position.z -= bias * gl_Position.w;
-  facing = vec3(normal, 1.0 - kind.y);
-  rise = kind;
+  bool wall = kind.y > 0.5;
+  vec3 tone = mix(vec3(dot(color, vec3(0.3, 0.6, 0.1))), color, 1.08) * 0.93;
+  shade = wall ? lit(clamp(tone, 0.0, 1.0), normalize(vec3(normal, 0.0))) : color;
+  depth = wall ? 1.0 - kind.x : 0.0;
 }
 )";
-// Walls have a tone of their own, and are darker toward their foot, where less of the sky is seen.
+// Darker toward a wall's foot, where less of the sky is seen.
 constexpr const char* kLitFragment = R"(
-centroid in vec3 facing;
-centroid in vec2 rise;
-uniform vec3 color;
+centroid in vec3 shade;
+centroid in float depth;
 out vec4 pixel;
-void main() {
-  float depth = 1.0 - rise.x;
-  float open = 1.0 - 0.38 * depth * depth;
-  vec3 own = mix(color, mix(vec3(dot(color, vec3(0.3, 0.6, 0.1))), color, 1.08) * 0.93, rise.y);
-  vec3 seen = lit(clamp(own, 0.0, 1.0), normalize(facing));
-  pixel = vec4(seen * mix(1.0, open, rise.y), 1.0);
-}
+void main() { pixel = vec4(shade * (1.0 - 0.38 * depth * depth), 1.0); }
 )";
 constexpr const char* kShadowVertex = R"(
 uniform float ground;
@@ -107,17 +105,18 @@ Box shadow_box(MapRect rect, const protocol::LayerSettings& layer, double ground
   return {rect, ground, ground};
 }
 
-/// Pixels that the shadow reaches beyond what casts it, near the target.
-double shadow_pixels(const Picture& picture, const protocol::LayerSettings& layer, double ground) {
-  return std::hypot(kShadowFall[0], kShadowFall[1]) * (layer.top - ground) *
-         picture.camera.place().zoom * picture.pixel_ratio;
+/// 0 .. 1: how much of a layer's shadow is seen. One that reaches less than 2 CSS pixels beyond
+/// what casts it (near the target) would only blur it, and cost as much as the map itself.
+float shadow_share(const Picture& picture, const protocol::LayerSettings& layer, double ground) {
+  const double reach = std::hypot(kShadowFall[0], kShadowFall[1]) * (layer.top - ground);
+  return static_cast<float>(std::clamp((reach * picture.camera.place().zoom - 2) / 2, 0.0, 1.0));
 }
 
 }  // namespace
 
 protocol::Result<Batches> Batches::make() {
   const std::string inputs = kInputs;
-  auto lit = Program::make(inputs + kLitVertex, std::string(kLightCode) + kLitFragment);
+  auto lit = Program::make(inputs + kLightCode + kLitVertex, kLitFragment);
   if (!lit) return tl::unexpected(lit.error());
   auto shadow = Program::make(inputs + kShadowVertex, kShadowFragment);
   if (!shadow) return tl::unexpected(shadow.error());
@@ -173,6 +172,7 @@ DrawCounts Batches::draw_seen(const Pass& pass, const BoxOf& box_of,
   const Projection& projection = pass.projection;
   DrawCounts counts;
   std::int32_t layer = -1;
+  glEnable(GL_CULL_FACE);
   for (const auto& [key, batch] : batches_) {
     const auto n = static_cast<std::size_t>(key.layer);
     if (n >= layers.size() || pass.hidden[n]) continue;
@@ -188,13 +188,13 @@ DrawCounts Batches::draw_seen(const Pass& pass, const BoxOf& box_of,
     counts.draws += 1;
     counts.triangles += batch.index_count / 3;
   }
+  glDisable(GL_CULL_FACE);
   return counts;
 }
 
 DrawCounts Batches::draw(const Picture& picture, const Projection& projection) const {
   lit_.use();
   glUniformMatrix4fv(lit_at_.clip, 1, GL_FALSE, projection.clip_from_voxels.data());
-  glEnable(GL_CULL_FACE);
   const auto box_of = [](const MapRect& rect, const protocol::LayerSettings& layer) {
     return Box{rect, layer.bottom, layer.top};
   };
@@ -204,31 +204,30 @@ DrawCounts Batches::draw(const Picture& picture, const Projection& projection) c
     glUniform2f(lit_at_.heights, static_cast<float>(layer.bottom), static_cast<float>(layer.top));
     glUniform1f(lit_at_.bias, kLayerBias * static_cast<float>(n));
   };
-  const DrawCounts counts =
-      draw_seen({picture, projection, picture.hidden, lit_at_.offset}, box_of, set_layer);
-  glDisable(GL_CULL_FACE);
-  return counts;
+  return draw_seen({picture, projection, picture.hidden, lit_at_.offset}, box_of, set_layer);
 }
 
 std::size_t Batches::draw_shadows(const Picture& picture, const Projection& projection,
                                   double ground) const {
   auto hidden = picture.hidden;
   for (std::size_t n = 0; n < picture.settings.layers.size(); ++n)
-    if (shadow_pixels(picture, picture.settings.layers[n], ground) < 0.75) hidden.set(n);
+    if (shadow_share(picture, picture.settings.layers[n], ground) <= 0) hidden.set(n);
   shadow_.use();
   glUniformMatrix4fv(shadow_at_.clip, 1, GL_FALSE, projection.clip_from_voxels.data());
   glUniform1f(shadow_at_.ground, static_cast<float>(ground));
   glUniform2f(shadow_at_.fall, static_cast<float>(kShadowFall[0] / projection.voxel_size),
               static_cast<float>(kShadowFall[1] / projection.voxel_size));
-  glUniform4fv(shadow_at_.color, 1, kShadowColor.data());
   const auto box_of = [&](const MapRect& rect, const protocol::LayerSettings& layer) {
     return shadow_box(rect, layer, ground);
   };
   const auto set_layer = [&](const protocol::LayerSettings& layer, std::int32_t) {
     glUniform2f(shadow_at_.heights, static_cast<float>(layer.bottom),
                 static_cast<float>(layer.top));
+    glUniform4f(shadow_at_.color, kShadowColor[0], kShadowColor[1], kShadowColor[2],
+                kShadowColor[3] * shadow_share(picture, layer, ground));
   };
-  // All of one depth: the first to come darkens a sample, all others fail the test.
+  // What faces the lamp casts all of the shadow, and laid on the ground it still faces up: the rest
+  // is culled. All of one depth: the first to come darkens a sample, all others fail the test.
   glDepthRangef(kShadowDepth, kShadowDepth);
   const DrawCounts counts =
       draw_seen({picture, projection, hidden, shadow_at_.offset}, box_of, set_layer);

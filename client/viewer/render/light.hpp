@@ -15,15 +15,10 @@ inline constexpr std::array<float, 4> kShadowColor = {0.10F, 0.13F, 0.18F, 0.22F
 /// How far a shadow falls, in map units for each unit of height: away from the lamp.
 inline constexpr std::array<double, 2> kShadowFall = {0.66, -0.44};
 
-/// GLSL: `vec3 lit(vec3 color, vec3 normal)` of sRGB colours. A surface that faces up keeps its
-/// layer's colour to the last bit; light is added up in linear values.
+/// GLSL: `vec3 lit(vec3 color, vec3 normal)` of sRGB colours, the normal a unit vector. A surface
+/// that faces up keeps its layer's colour. Light is added up as it is in nature; the square root
+/// brings it to sRGB, whose values are near enough to those of a gamma of 2.
 inline constexpr const char* kLightCode = R"(
-vec3 to_linear(vec3 c) {
-  return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(vec3(0.04045), c));
-}
-vec3 to_srgb(vec3 c) {
-  return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), c));
-}
 vec3 light_on(vec3 normal) {
   const vec3 lamp = vec3(-0.600, 0.400, 0.693);
   vec3 sky = mix(vec3(0.38, 0.37, 0.36), vec3(0.40, 0.43, 0.47), 0.5 + 0.5 * normal.z);
@@ -31,8 +26,7 @@ vec3 light_on(vec3 normal) {
   return sky + vec3(0.90, 0.86, 0.80) * (max(facing, 0.0) + 0.12 * max(-facing, 0.0));
 }
 vec3 lit(vec3 color, vec3 normal) {
-  vec3 light = light_on(normal) / light_on(vec3(0.0, 0.0, 1.0));
-  return to_srgb(min(to_linear(color) * light, 1.0));
+  return color * sqrt(light_on(normal) / light_on(vec3(0.0, 0.0, 1.0)));
 }
 )";
 

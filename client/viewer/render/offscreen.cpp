@@ -111,6 +111,8 @@ Result<std::unique_ptr<Offscreen>> Offscreen::make(int width, int height) {
 
 void Offscreen::bind() { glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_->drawn); }
 
+void Offscreen::finish() { glFinish(); }
+
 void Offscreen::release() {
   eglMakeCurrent(context_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }

@@ -26,6 +26,8 @@ class Offscreen {
   void bind();
   /// What was drawn: red, green, blue and opacity of each pixel, rows top down.
   [[nodiscard]] std::vector<std::uint8_t> read();
+  /// Waits until all that was asked for is drawn.
+  void finish();
   /// On the thread no context is current any more: as a window system takes one away.
   void release();
 
