@@ -53,7 +53,8 @@ bool Access::allowed(std::string_view host) const {
 protocol::Result<void> Access::check(const std::optional<std::string>& host,
                                      const std::optional<std::string>& origin) const {
   if (!host || !allowed(*host))
-    return protocol::fail(Code::bad_field, "Host: not a name of this server", "Host");
+    return protocol::fail(Code::bad_field, "Host: not a name of this server; --allow-host adds one",
+                          "Host");
   constexpr std::string_view kScheme = "http://";
   if (origin && (!origin->starts_with(kScheme) || !allowed(origin->substr(kScheme.size()))))
     return protocol::fail(Code::bad_field, "Origin: another site may not use this server",

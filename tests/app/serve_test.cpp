@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <string>
 #include <thread>
@@ -85,6 +86,28 @@ TEST(Server, RefusesWrongUseInOneLine) {
 TEST(Server, NamesTheFlagThatOpensIt) {
   EXPECT_NE(server({"serve", "--listen", "0.0.0.0:0"}).err.find("--insecure-open"),
             std::string::npos);
+}
+
+TEST(Server, ServesThePageThatItIsGiven) {
+  e2e::Folder folder;
+  std::filesystem::create_directories(folder / "page");
+  std::ofstream(folder / "page/index.html") << "<!doctype html><title>a page</title>";
+  e2e::ServerProgram with({.more = {"--page", folder / "page"}});
+  EXPECT_EQ(e2e::get(with, "/"), "<!doctype html><title>a page</title>");
+  EXPECT_EQ(e2e::get(with, "/?map=demo"), e2e::get(with, "/"));
+}
+
+TEST(Server, DoesNotStartWithAPageThatItCannotServe) {
+  e2e::Folder folder;
+  std::filesystem::create_directories(folder / "page");
+  for (const std::string& page : {folder / "page", folder / "nothing"}) {
+    const Outcome refused =
+        server({"serve", "--memory", "--listen", "127.0.0.1:0", "--page", page});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(lines(refused.err), 1) << refused.err;
+    EXPECT_NE(refused.err.find(page), std::string::npos) << refused.err;
+  }
 }
 
 TEST(Server, EndsWithZeroWhenItIsAsked) {

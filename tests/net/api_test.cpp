@@ -23,6 +23,7 @@ struct ApiTest : testing::Test {
                      .host = "localhost:8080",
                      .origin = {},
                      .content_type = {},
+                     .accept_encoding = {},
                      .if_none_match = {},
                      .body = std::move(body)};
     if (!made.body.empty()) made.content_type = "application/json";
@@ -80,7 +81,14 @@ TEST_F(ApiTest, ShowsAPageAndItsHealth) {
   const auto page = get("/");
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
-  EXPECT_NE(page.body.find("not part of this build"), std::string::npos);
+  EXPECT_NE(page.body.find("server/run"), std::string::npos);  // how to get the viewer
+  EXPECT_NE(page.body.find("--page"), std::string::npos);
+  for (const char* path : {"/api/maps", "figures", "states.png", "export.glb", "/ws", "/metrics"})
+    EXPECT_NE(page.body.find(path), std::string::npos) << path;
+  EXPECT_EQ(header(page, "X-Content-Type-Options"), "nosniff");
+  EXPECT_NE(header(page, "Content-Security-Policy").find("default-src 'none'"), std::string::npos);
+  EXPECT_EQ(get("/?map=demo").body, page.body);
+  is_problem(get("/index.html"), 404);
   EXPECT_EQ(get("/healthz").body, "ok\n");
 }
 

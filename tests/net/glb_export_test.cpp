@@ -19,17 +19,6 @@ TEST(GlbExport, ATagFollowsMeshAndSettings) {
   EXPECT_EQ(tag.back(), '"');
 }
 
-TEST(GlbExport, IfNoneMatchIsAList) {
-  EXPECT_TRUE(names_tag("\"a\"", "\"a\""));
-  EXPECT_TRUE(names_tag("\"b\", \"a\"", "\"a\""));
-  EXPECT_TRUE(names_tag(" W/\"a\" ,\"b\"", "\"a\""));
-  EXPECT_TRUE(names_tag("*", "\"a\""));
-  EXPECT_FALSE(names_tag("\"aa\"", "\"a\""));
-  EXPECT_FALSE(names_tag("a", "\"a\""));
-  EXPECT_FALSE(names_tag("", "\"a\""));
-  EXPECT_FALSE(names_tag(" , ,", "\"a\""));
-}
-
 TEST(GlbExport, IsMadeFromRecords) {
   protocol::ChunkRecord record;
   record.key = {0, 3, -2, 0};

@@ -33,6 +33,7 @@ struct MapQuestionTest : testing::Test {
                         .host = "localhost:8080",
                         .origin = {},
                         .content_type = "application/json",
+                        .accept_encoding = {},
                         .if_none_match = {},
                         .body = std::move(body)};
     auto promise = std::make_shared<std::promise<HttpResponse>>();

@@ -70,6 +70,7 @@ TEST(Metrics, SayWhatWasCounted) {
   meters.sessions = 5;
   meters.edits = 9'007'199'254'740'991;
   meters.repeated = 2;
+  meters.chat_lines = 9;
   meters.meshed_chunks = 77;
   meters.mesh_ns = 2'500'000'000;
   meters.frames = 21;
@@ -89,6 +90,7 @@ TEST(Metrics, SayWhatWasCounted) {
                                                {"earthwork_viewers", 12},
                                                {"earthwork_edits_total", 9'007'199'254'740'991},
                                                {"earthwork_edits_repeated_total", 2},
+                                               {"earthwork_chat_lines_total", 9},
                                                {"earthwork_dirty_chunks", 40},
                                                {"earthwork_meshed_chunks_total", 77},
                                                {"earthwork_mesh_seconds_total", 2.5},
