@@ -29,7 +29,15 @@ protocol::User user(std::uint64_t n) {
 
 struct HeraldTest : testing::Test {
   void enter(ViewerId id) { herald.enter(id, eyes[id], user(id)); }
-  void point(ViewerId id, double x) { herald.point(id, {.at = {{x, 0}}, .brush = {}, .id = {}}); }
+  void point(ViewerId id, double x) {
+    herald.point(id, {.at = {{x, 0}}, .brush = {}, .view = {}, .id = {}});
+  }
+  /// The texts of the lines that a viewer was told.
+  std::vector<std::string> heard_lines(ViewerId id) const {
+    std::vector<std::string> texts;
+    for (const auto& line : eyes.at(id).chat()) texts.push_back(line.text);
+    return texts;
+  }
   void accept(std::size_t points = 1) {
     protocol::Edit edit = disc(1, 2, 3);
     edit.path.resize(points);
@@ -54,7 +62,8 @@ struct HeraldTest : testing::Test {
   ManualClerk clerk{journal::make_memory_journal(journal::small_identity())};
   PastEvents past{clerk, back_at_once, 0};
   int tasks = 0;
-  Herald herald{past, *strand, [this](std::chrono::milliseconds delay, Strand::Task task) {
+  std::shared_ptr<ChatLog> log = std::make_shared<ChatLog>();
+  Herald herald{past, *strand, log, [this](std::chrono::milliseconds delay, Strand::Task task) {
                   ++tasks;
                   if (delay == 0ms)
                     strand->post(std::move(task));
@@ -91,6 +100,90 @@ TEST_F(HeraldTest, TellsOfPeopleAtMostTenTimesASecond) {
   context.advance(100ms);
   herald.heard(1);
   EXPECT_EQ(eyes[1].people().back().cursors.at(0).at->x, 399);
+}
+
+TEST_F(HeraldTest, TellsWhatIsSaidToAllAndAtOnce) {
+  enter(1), enter(2);
+  context.advance(1s);
+  herald.heard(1), herald.heard(2);
+  herald.say(2, "hello");
+  EXPECT_TRUE(heard_lines(1).empty());  // not within the call
+  context.run();
+  ASSERT_EQ(eyes[1].chat().size(), 1u);
+  const protocol::ChatLine line{.n = 1,
+                                .time_ms = context.now().count(),
+                                .session = user(2).session,
+                                .name = "user 2",
+                                .color = "#102030",
+                                .text = "hello"};
+  EXPECT_EQ(eyes[1].chat()[0], line);
+  EXPECT_EQ(eyes[2].chat()[0], line);  // and to who said it
+  EXPECT_EQ(log->last(), 1u);
+  herald.say(3, "nobody");
+  EXPECT_EQ(log->last(), 1u);
+}
+
+TEST_F(HeraldTest, TellsWhatIsSaidAtMostTenTimesASecond) {
+  enter(1), enter(2);
+  context.advance(1s);
+  herald.heard(1);
+  eyes[1].talks.clear();
+  for (int i = 0; i < 100; ++i) {
+    herald.say(2, "hello");
+    context.advance(10ms);
+    herald.heard(1);
+  }
+  EXPECT_LE(eyes[1].talks.size(), 11u);
+  context.advance(100ms);
+  herald.heard(1);
+  ASSERT_EQ(eyes[1].chat().size(), 100u);
+  for (std::uint64_t i = 0; i < 100; ++i) EXPECT_EQ(eyes[1].chat()[i].n, i + 1);
+}
+
+TEST_F(HeraldTest, WhoComesIsToldWhatWasSaidWithoutWaitingForATick) {
+  enter(1);
+  herald.say(1, "one");
+  context.run();
+  enter(2);  // within the tenth of a second
+  context.run();
+  EXPECT_EQ(heard_lines(2), std::vector<std::string>{"one"});
+  herald.say(1, "two");
+  enter(3);
+  context.run();
+  EXPECT_EQ(heard_lines(3), (std::vector<std::string>{"one", "two"}));
+  context.advance(1s);
+  EXPECT_EQ(eyes[2].talks.size(), 1u);
+  herald.heard(2);
+  ASSERT_EQ(eyes[2].talks.size(), 2u);
+  EXPECT_EQ(heard_lines(2), (std::vector<std::string>{"one", "two"}));
+}
+
+TEST_F(HeraldTest, ASlowReaderMissesLinesAndNotTheirOrder) {
+  enter(1), enter(2);
+  context.advance(1s);
+  herald.heard(1);
+  herald.say(2, "heard");
+  context.advance(1s);
+  for (int i = 0; i < 300; ++i) herald.say(2, std::to_string(i)), context.advance(150ms);
+  const std::size_t before = eyes[1].talks.size();
+  EXPECT_EQ(heard_lines(1), std::vector<std::string>{"heard"});
+  herald.heard(1);
+  EXPECT_EQ(eyes[1].talks.size(), before + 1);
+  ASSERT_EQ(eyes[1].chat().size(), 101u);
+  EXPECT_EQ(heard_lines(1)[1], "200");
+  EXPECT_EQ(heard_lines(1)[100], "299");
+}
+
+TEST_F(HeraldTest, WhoLeftHearsNothingAndItsLinesStay) {
+  enter(1), enter(2);
+  herald.say(2, "bye");
+  herald.leave(2);
+  context.advance(1s);
+  EXPECT_EQ(heard_lines(1), std::vector<std::string>{"bye"});
+  EXPECT_TRUE(eyes[2].talks.empty());
+  herald.leave_all();
+  herald.say(1, "nobody");
+  EXPECT_EQ(log->last(), 1u);
 }
 
 TEST_F(HeraldTest, IsQuietWhenNothingChanges) {
@@ -257,9 +350,9 @@ TEST(Herald, TellsWhoseEventsCannotBeReadAndGoesOn) {
   PastEvents past(clerk, back_at_once, 10);
   ManualContext context;
   const auto strand = context.make_strand();
-  Herald herald(past, *strand, [&](std::chrono::milliseconds, Strand::Task task) {
-    strand->post(std::move(task));
-  });
+  Herald herald(
+      past, *strand, std::make_shared<ChatLog>(),
+      [&](std::chrono::milliseconds, Strand::Task task) { strand->post(std::move(task)); });
   Onlooker ann, bob;
   herald.enter(1, ann, user(1)), herald.enter(2, bob, user(2));
   context.run(5), herald.heard(1), herald.heard(2);
@@ -332,9 +425,9 @@ TEST(Herald, ALongPastIsTakenInWithinBounds) {
   PastEvents past(clerk, back_at_once, kCount);
   ManualContext context;
   const auto strand = context.make_strand();
-  Herald herald(past, *strand, [&](std::chrono::milliseconds, Strand::Task task) {
-    strand->post(std::move(task));
-  });
+  Herald herald(
+      past, *strand, std::make_shared<ChatLog>(),
+      [&](std::chrono::milliseconds, Strand::Task task) { strand->post(std::move(task)); });
   Listener reader;
   herald.enter(1, reader, user(1));
   herald.follow(1, 1);

@@ -107,6 +107,13 @@ std::vector<protocol::Presence> Onlooker::people() const {
 
 std::vector<protocol::Event> Onlooker::events() const { return heard<protocol::Event>(talks); }
 
+std::vector<protocol::ChatLine> Onlooker::chat() const {
+  std::vector<protocol::ChatLine> lines;
+  for (const auto& chat : heard<protocol::ChatLines>(talks))
+    lines.insert(lines.end(), chat.lines.begin(), chat.lines.end());
+  return lines;
+}
+
 std::uint64_t Onlooker::mesh_hash() const {
   std::uint64_t sum = 0;
   for (const auto& [key, record] : chunks)

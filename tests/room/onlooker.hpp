@@ -30,6 +30,7 @@ class Onlooker final : public Viewer {
   /// Of all talks, in order.
   [[nodiscard]] std::vector<protocol::Presence> people() const;
   [[nodiscard]] std::vector<protocol::Event> events() const;
+  [[nodiscard]] std::vector<protocol::ChatLine> chat() const;
 
   std::vector<protocol::Applied> acks;
   std::vector<protocol::Rejected> refusals;

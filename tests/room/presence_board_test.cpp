@@ -22,8 +22,10 @@ protocol::User user(std::uint64_t n) {
   return {session(n), "user " + std::to_string(n), "#102030", protocol::hex(n + 1000)};
 }
 
-protocol::Cursor at(double x, double y) { return {.at = {{x, y}}, .brush = {}, .id = {}}; }
-protocol::Cursor nowhere() { return {.at = {}, .brush = {}, .id = {}}; }
+protocol::Cursor at(double x, double y) {
+  return {.at = {{x, y}}, .brush = {}, .view = {}, .id = {}};
+}
+protocol::Cursor nowhere() { return {.at = {}, .brush = {}, .view = {}, .id = {}}; }
 
 struct Board : PresenceBoard {
   void join(ViewerId id) { enter(id, user(id)); }
@@ -77,15 +79,14 @@ TEST_F(PresenceBoardTest, SaysWhereTheyPointAndWithWhat) {
   const Presence moved{.all = false,
                        .users = {},
                        .left = {},
-                       .cursors = {{session(2), protocol::MapPoint{3, -4.5}, cursor.brush}}};
+                       .cursors = {{session(2), protocol::MapPoint{3, -4.5}, cursor.brush, {}}}};
   EXPECT_EQ(board.news(1), moved);
   EXPECT_FALSE(board.news(2));  // it knows where it points
   board.point(2, nowhere(), 0);
   board.advance();
-  EXPECT_EQ(board.news(1), (Presence{.all = false,
-                                     .users = {},
-                                     .left = {},
-                                     .cursors = {{session(2), std::nullopt, std::nullopt}}}));
+  EXPECT_EQ(
+      board.news(1),
+      (Presence{.all = false, .users = {}, .left = {}, .cursors = {{session(2), {}, {}, {}}}}));
 }
 
 TEST_F(PresenceBoardTest, OfManyPlacesTheLastOneCounts) {
@@ -119,6 +120,43 @@ TEST_F(PresenceBoardTest, HidesACursorThatIsNotSaidAgain) {
   EXPECT_FALSE(news->cursors[0].at);
   EXPECT_EQ(board.hide_old(39'000), std::nullopt);
   EXPECT_TRUE(board.changed());
+}
+
+TEST_F(PresenceBoardTest, SaysWhatTheySee) {
+  const protocol::MapRect seen{-8, 0, 8.5, 16};
+  board.point(2, {.at = {{1, 1}}, .brush = {}, .view = seen, .id = {}}, 0);
+  board.advance();
+  EXPECT_EQ(board.news(1)->cursors.at(0).view, seen);
+  const protocol::MapRect next{-7, 0, 9.5, 16};
+  board.point(2, {.at = {{1, 1}}, .brush = {}, .view = next, .id = {}}, 0);
+  board.advance();
+  EXPECT_EQ(board.news(1)->cursors.at(0).view, next);
+  board.point(2, at(1, 1), 0);  // it does not say any more
+  board.advance();
+  EXPECT_FALSE(board.news(1)->cursors.at(0).view);
+}
+
+TEST_F(PresenceBoardTest, WhatSomebodySeesOutlastsItsCursor) {
+  const protocol::MapRect seen{-8, 0, 8.5, 16};
+  board.point(2, {.at = {{1, 1}}, .brush = {}, .view = seen, .id = {}}, 0);
+  settle();
+  EXPECT_EQ(board.hide_old(kCursorMs), std::nullopt);
+  board.advance();
+  const auto news = board.news(1);
+  ASSERT_TRUE(news);
+  EXPECT_EQ(news->cursors.at(0), (protocol::UserCursor{session(2), {}, {}, seen}));
+  board.point(2, {.at = {}, .brush = {}, .view = seen, .id = {}}, 0);
+  EXPECT_FALSE(board.changed());
+}
+
+TEST_F(PresenceBoardTest, ANewcomerIsToldWhatTheOthersSeeWithoutACursorToo) {
+  const protocol::MapRect seen{-8, 0, 8.5, 16};
+  board.point(1, {.at = {}, .brush = {}, .view = seen, .id = {}}, 0);
+  settle();
+  board.join(3);
+  board.advance();
+  EXPECT_EQ(board.news(3)->cursors,
+            (std::vector<protocol::UserCursor>{{session(1), {}, {}, seen}}));
 }
 
 TEST_F(PresenceBoardTest, ANewcomerIsToldOfTheCursorsThatThereAre) {
@@ -264,6 +302,8 @@ TEST(PresenceBoard, AMessageOfTheMostAndLongestFits) {
     board.enter(id, one);
     protocol::Cursor cursor = at(-1.2345678901234567e-300, -1.2345678901234567e-300);
     cursor.brush = protocol::Brush{.radius = 1.2345678901234567e-300, .fill = false, .layer = 15};
+    constexpr double kLong = -1.2345678901234567e-300;
+    cursor.view = protocol::MapRect{kLong, kLong, -kLong, -kLong};
     board.point(id, cursor, 0);
   }
   board.advance();
@@ -284,7 +324,7 @@ struct Reader {
     for (const auto& one : news.users) users[one.session] = one;
     for (const auto& one : news.cursors) {
       cursors.erase(one.session);
-      if (one.at) cursors[one.session] = one;
+      if (one.at || one.view) cursors[one.session] = one;
     }
   }
 };
@@ -294,8 +334,8 @@ TEST(PresenceBoard, EverybodyEndsWithTheSamePicture) {
   EXPECT_TRUE(rc::check([] {
     Board board;
     std::map<ViewerId, Reader> readers;
-    std::map<ViewerId, std::uint64_t> sessions;  // of those who are there
-    std::map<std::string, protocol::MapPoint> places;
+    std::map<ViewerId, std::uint64_t> sessions;        // of those who are there
+    std::map<std::string, protocol::UserCursor> said;  // of those who point or see
     ViewerId last = 0;
     const auto listen = [&](ViewerId id) {
       if (const auto news = board.news(id)) readers[id].take(*news);
@@ -313,14 +353,18 @@ TEST(PresenceBoard, EverybodyEndsWithTheSamePicture) {
       } else if (what == 0) {
         board.leave(found->first);
         readers.erase(found->first);
-        places.erase(session(one));
+        said.erase(session(one));
         sessions.erase(found);
-      } else if (what <= 2) {
-        places[session(one)] = {*rc::gen::inRange(0, 3) * 1.0, 0};
-        board.point(found->first, at(places[session(one)].x, 0), 0);
-      } else if (what == 3) {
-        places.erase(session(one));
-        board.point(found->first, nowhere(), 0);
+      } else if (what <= 3) {
+        protocol::Cursor cursor = nowhere();
+        if (*rc::gen::inRange(0, 3) > 0)
+          cursor.at = protocol::MapPoint{*rc::gen::inRange(0, 3) * 1.0, 0};
+        if (*rc::gen::inRange(0, 3) == 0)
+          cursor.view = protocol::MapRect{0, 0, *rc::gen::inRange(1, 3) * 1.0, 1};
+        said.erase(session(one));
+        if (cursor.at || cursor.view)
+          said[session(one)] = {session(one), cursor.at, {}, cursor.view};
+        board.point(found->first, cursor, 0);
       } else if (what == 4) {
         board.advance();
       } else {
@@ -331,11 +375,10 @@ TEST(PresenceBoard, EverybodyEndsWithTheSamePicture) {
     for (const auto& [id, one] : sessions) {
       listen(id);
       RC_ASSERT(readers[id].users.size() == sessions.size());
-      auto others = places;
+      auto others = said;
       others.erase(session(one));  // of itself it need not be told
       readers[id].cursors.erase(session(one));
-      RC_ASSERT(readers[id].cursors.size() == others.size());
-      for (const auto& [name, place] : others) RC_ASSERT(readers[id].cursors[name].at == place);
+      RC_ASSERT(readers[id].cursors == others);
     }
   }));
 }

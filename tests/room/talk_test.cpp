@@ -14,7 +14,9 @@ namespace {
 using namespace std::chrono_literals;
 using protocol::Code;
 
-protocol::Cursor at(double x, double y) { return {.at = {{x, y}}, .brush = {}, .id = {}}; }
+protocol::Cursor at(double x, double y) {
+  return {.at = {{x, y}}, .brush = {}, .view = {}, .id = {}};
+}
 
 /// Throws at what it is told to.
 struct Broken final : Viewer {
@@ -94,8 +96,51 @@ TEST(Talk, ACursorGoesAsFarAsAnEditAndNoFurther) {
   EXPECT_EQ(refused.error().field, "y");
   EXPECT_NE(refused.error().detail.find("1000000"), std::string::npos);
   EXPECT_EQ(world.room->point(ann.id, at(1e308, 0)).error().field, "x");
-  EXPECT_TRUE(world.room->point(ann.id, {.at = {}, .brush = {}, .id = {}}));
+  EXPECT_TRUE(world.room->point(ann.id, {.at = {}, .brush = {}, .view = {}, .id = {}}));
   EXPECT_EQ(world.room->point(99, at(0, 0)).error().code, Code::bad_state);
+}
+
+TEST(Talk, WhatPeopleSeeGoesAsFarToo) {
+  World world({.chunks = {}, .voxel_size = 0.5});
+  World::Guest ann = world.enter();
+  const auto sees = [&](protocol::MapRect view) {
+    return world.room->point(ann.id, {.at = {}, .brush = {}, .view = view, .id = {}});
+  };
+  EXPECT_TRUE(sees({-500'000, -500'000, 500'000, 500'000}));
+  for (const protocol::MapRect& far :
+       {protocol::MapRect{-500'000.5, 0, 0, 0}, protocol::MapRect{0, -500'000.5, 0, 0},
+        protocol::MapRect{0, 0, 500'000.5, 0}, protocol::MapRect{0, 0, 0, 500'000.5},
+        protocol::MapRect{-1e308, 0, 1e308, 0}}) {
+    const auto refused = sees(far);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, Code::out_of_range);
+    EXPECT_EQ(refused.error().field, "view");
+    EXPECT_NE(refused.error().detail.find("1000000"), std::string::npos);
+  }
+}
+
+TEST_F(TalkTest, WhatIsSaidReachesAllAndWhoComesLater) {
+  Guest ann = enter("ann"), bob = enter("bob");
+  hush({&ann, &bob});
+  ASSERT_TRUE(room->say(bob.id, "hello"));
+  EXPECT_EQ(meters->chat_lines, 1u);
+  context.run();
+  ASSERT_EQ(ann.eyes->chat().size(), 1u);
+  EXPECT_EQ(ann.eyes->chat()[0].name, "bob");
+  EXPECT_EQ(ann.eyes->chat()[0].session, "0000000000000008");
+  EXPECT_EQ(bob.eyes->chat(), ann.eyes->chat());
+  room->leave(bob.id);
+  EXPECT_EQ(room->say(bob.id, "again").error().code, Code::bad_state);
+  Guest cem = enter("cem");
+  context.run();  // no time passes
+  EXPECT_EQ(cem.eyes->chat(), ann.eyes->chat());
+}
+
+TEST_F(TalkTest, WhoTalksIsNotAlone) {
+  Guest ann = enter("ann");
+  context.advance(10s);
+  ASSERT_TRUE(room->say(ann.id, "hello"));
+  EXPECT_EQ(room->last_used_ms(), 10'000);
 }
 
 TEST_F(TalkTest, EventsComeFromWhereTheyAreAskedFor) {
