@@ -90,11 +90,10 @@ TEST(Golden, ClientMessages) {
           View{.n = 2, .rect = {}, .have = Have{"fedcba9876543210", 258, {0, 0, 64, 64}}, .id = {}},
           EditMessage{4, stamp}, EditMessage{5, stroke},
           LayerMessage{6, {.layer = {}, .name = "roof", .color = "#aa3322", .wall = {{2, 2.5}}}},
-          Undo{6}, Redo{7},
-          Cursor{.at = MapPoint{1, 2}, .brush = {}, .view = {}, .id = {}},
+          Undo{6}, Redo{7}, Cursor{.at = MapPoint{1, 2}, .brush = {}, .view = {}, .id = {}},
           Cursor{.at = MapPoint{1, 2},
                  .brush = Brush{StencilShape::square, 3, false, 1},
-                 .view = {},
+                 .view = MapRect{-8, 0, 8.5, 16},
                  .id = 8},
           Cursor{.at = {}, .brush = {}, .view = {}, .id = {}}, Events{.from_seq = 1, .id = 9},
           Ping{10}, Leave{11}));
@@ -103,11 +102,11 @@ TEST(Golden, ClientMessages) {
 TEST(Golden, ServerMessages) {
   const std::string session = "0123456789abcdef", key = "00112233445566778899aabbccddeeff";
   const User user{session, "Jö", "#aabbcc", "00112233445566ff"};
-  const Presence presence{
-      .all = true,
-      .users = {user},
-      .left = {"00000000000000ff"},
-      .cursors = {{session, MapPoint{1, 2}, Brush{}, {}}, {session, {}, {}, {}}}};
+  const Presence presence{.all = true,
+                          .users = {user},
+                          .left = {"00000000000000ff"},
+                          .cursors = {{session, MapPoint{1, 2}, Brush{}, MapRect{-8, 0, 8.5, 16}},
+                                      {session, {}, {}, {}}}};
   const Edit stamp{.radius = 3, .path = {{10, -2.5}}, .stroke = {}};
   const Event event{.seq = 259,
                     .time_ms = 1'700'000'000'123,

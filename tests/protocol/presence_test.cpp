@@ -59,6 +59,37 @@ TEST(Cursor, HoldsABrush) {
       R"({"type":"cursor","hidden":true,"brush":{"stencil":"circle","radius":1.0,"fill":true},"id":9})");
 }
 
+TEST(Cursor, SaysWhatIsSeen) {
+  const std::string both = R"({"type":"cursor","x":0.0,"y":0.0,"view":[-8.0,0.5,8.0,16.0]})";
+  EXPECT_EQ(cursor(R"("view":[-8,0.5,8,16],"x":0,"y":0)"), both);
+  const std::string hidden = R"({"type":"cursor","hidden":true,"view":[0.0,0.0,0.0,0.0]})";
+  EXPECT_EQ(cursor(R"("hidden":true,"view":[0,0,0,0])"), hidden);
+  EXPECT_EQ(
+      presence(R"(,"cursors":[{"session":"0123456789abcdef","hidden":true,"view":[0,0,1,1]}])"),
+      R"({"type":"presence","cursors":[{"session":"0123456789abcdef","hidden":true,"view":[0.0,0.0,1.0,1.0]}]})");
+}
+
+TEST(Cursor, SaysWhatIsWrongWithItsView) {
+  EXPECT_EQ(cursor(R"("hidden":true,"view":[0,0,1])"), "bad_field: view: 3 elements are not 4");
+  EXPECT_EQ(cursor(R"("hidden":true,"view":[1,0,0,1])"),
+            "out_of_range: view: [x0, y0, x1, y1] needs x0 <= x1 and y0 <= y1");
+  EXPECT_EQ(cursor(R"("hidden":true,"view":[0,1,1,0])"),
+            "out_of_range: view: [x0, y0, x1, y1] needs x0 <= x1 and y0 <= y1");
+  EXPECT_EQ(cursor(R"("hidden":true,"view":true)"), "bad_field: view: is not an array");
+}
+
+TEST(Cursor, SeesAsFarAsCoordinatesGoAndNoFurther) {
+  const MapSettings half{.chunks = {}, .voxel_size = 0.5};
+  EXPECT_TRUE(check_seen({-500'000, -500'000, 500'000, 500'000}, half));
+  const auto far = check_seen({-500'000, -500'000, 500'000, 500'000.5}, half);
+  ASSERT_FALSE(far);
+  EXPECT_EQ(far.error(),
+            (Failure{Code::out_of_range,
+                     "view: 1000001 voxels from 0 is beyond the limit of 1000000", "view"}));
+  EXPECT_FALSE(check_seen({-500'000.5, 0, 0, 0}, half));
+  EXPECT_FALSE(check_seen({-1e308, -1e308, 1e308, 1e308}, half));
+}
+
 TEST(Cursor, SaysWhatIsWrongWithItsBrush) {
   EXPECT_EQ(cursor(R"("x":0,"y":0,"brush":"round")"), "bad_field: brush: not a JSON object");
   EXPECT_EQ(brush(""), "bad_field: brush.stencil: is missing");
