@@ -65,7 +65,7 @@ std::string exported(Journal& journal, std::uint64_t seq) {
 
 TEST(MapImport, KeepsEventsHashAndAgesOfWhatWasExported) {
   EXPECT_TRUE(rc::check([] {
-    const auto events = accepted(*rc::gen::scale(0.5, journal::some_edits()));
+    const auto events = accepted(*rc::gen::scale(0.5, journal::some_actions()));
     const auto original = journal_of(events);
     const auto again = imported(exported(*original, events.size()));
     RC_ASSERT(again.has_value());
@@ -73,6 +73,7 @@ TEST(MapImport, KeepsEventsHashAndAgesOfWhatWasExported) {
     const auto after = restore(*again->journal, {}, journal::Trust::strict);
     RC_ASSERT(after->keyframe_seq == events.size());
     RC_ASSERT(after->hash == before->hash && again->hash == before->hash);
+    RC_ASSERT(after->settings == before->settings);
     RC_ASSERT(after->ages == before->ages);
     RC_ASSERT(after->authors == before->authors);
     RC_ASSERT(audit(*again->journal)->sound());
@@ -81,6 +82,28 @@ TEST(MapImport, KeepsEventsHashAndAgesOfWhatWasExported) {
     for (std::size_t i = 0; i < events.size(); ++i)
       RC_ASSERT(to_recorded((*page)[i]) == to_recorded(events[i]));
   }));
+}
+
+TEST(MapImport, ProvesChangesOfLayersToo) {
+  const auto rename = [](std::uint32_t layer) {
+    return protocol::LayerChange{.layer = layer, .name = "roof", .color = {}, .wall = {}};
+  };
+  protocol::Edit roof = journal::disc(4, 4, 3);
+  roof.layer = 1;
+  auto events = accepted({journal::disc(4, 4, 3), protocol::LayerChange{}, roof, rename(1)});
+  const auto made = imported(joined(lines_of(events)));
+  ASSERT_TRUE(made) << made.error().detail;
+  EXPECT_EQ(made->journal->identity().settings, small_identity().settings);
+  EXPECT_EQ(restore(*made->journal, {}, journal::Trust::strict)->settings.layers.at(1).name,
+            "roof");
+  events[3].action = rename(2);
+  EXPECT_EQ(imported(joined(lines_of(events))).error().detail,
+            "line 5: layer: 2 of a map with 2 layers");
+  events[3].action = rename(1);
+  events[1].hash ^= 1;
+  EXPECT_TRUE(imported(joined(lines_of(events)))
+                  .error()
+                  .detail.starts_with("line 3: seq 2: the stored hash is "));
 }
 
 TEST(MapImport, TakesTheSettingsAndAKeyframe) {

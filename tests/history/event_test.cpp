@@ -41,7 +41,7 @@ TEST(Events, GiveTheSameHashWheneverTheyAreReplayed) {
   EXPECT_TRUE(rc::check([] {
     const auto events = *some_events();
     voxel::Map live = make_map({}), again = make_map({});
-    for (const Event& e : events) apply(live, e.action);
+    for (const Event& e : events) history::apply(live, e.action);
     replay(again, events);
     RC_ASSERT(live.hash() == again.hash());
   }));
@@ -64,7 +64,7 @@ void number(std::vector<Event>& events) {
   voxel::Map map = make_map({});
   std::uint64_t seq = 0;
   for (Event& e : events) {
-    apply(map, e.action);
+    history::apply(map, e.action);
     e.seq = ++seq;
     e.hash = map.hash();
   }

@@ -72,6 +72,18 @@ TEST(Fold, StampsTheLayerThatIsMeant) {
   EXPECT_FALSE(map.filled(0, 8, 8));
 }
 
+TEST(Fold, AChangeOfLayersGivesALayerOrChangesNoVoxel) {
+  voxel::Map map = make_map({});
+  history::apply(map, protocol::Action(disc(8, 8, 3)));
+  const std::uint64_t hash = map.hash();
+  const protocol::LayerChange add, rename{.layer = 0, .name = "a", .color = {}, .wall = {}};
+  EXPECT_EQ(history::apply(map, protocol::Action(add)), voxel::Change{});
+  EXPECT_EQ(map.grid().layers, 2);
+  EXPECT_EQ(history::apply(map, protocol::Action(rename)), voxel::Change{});
+  EXPECT_EQ(map.grid().layers, 2);
+  EXPECT_EQ(map.hash(), hash);
+}
+
 TEST(Fold, APathIsItsStamps) {
   const std::vector<protocol::MapPoint> path{{5, 5}, {9.25, 7}, {30, 33.5}, {31, 33.5}};
   voxel::Map one = make_map({}), many = make_map({});

@@ -31,7 +31,7 @@ std::vector<std::string> details(const Audit& audit) {
 using Details = std::vector<std::string>;
 
 RC_GTEST_PROP(Audit, FindsNothingInAJournalAsItIsWritten, ()) {
-  const auto events = accepted(*some_edits());
+  const auto events = accepted(*some_actions());
   std::vector<std::uint64_t> keyframes;
   for (std::uint64_t seq = 1; seq <= events.size(); ++seq)
     if (*rc::gen::arbitrary<bool>()) keyframes.push_back(seq);
@@ -163,6 +163,18 @@ TEST(Audit, NamesAKeyframeBeyondTheLog) {
   EXPECT_EQ(found.events, 7u);
   ASSERT_FALSE(found.findings.empty());
   EXPECT_EQ(details(found).back(), "keyframes: seq 8: the log has only 7 events");
+}
+
+TEST(Audit, NamesAKeyframeWhoseSettingsAreNotTheLogs) {
+  auto journal = journal_of(ten_events());
+  protocol::MapSettings renamed = small_identity().settings;
+  renamed.layers[0].name = "other";
+  Execution executed(small_identity().settings);
+  for (const auto& event : ten_events()) ASSERT_TRUE(executed.apply(event));
+  executed.settings = renamed;
+  ASSERT_TRUE(put_whole_keyframe(*journal, executed, 0));
+  EXPECT_EQ(details(*audit(*journal)),
+            Details{"keyframes: seq 10: its settings are not what the log gives"});
 }
 
 TEST(Audit, IsNoneWhenTheDiskFails) {

@@ -40,17 +40,35 @@ inline protocol::Edit disc(double x, double y, double radius, bool fill = true) 
   return {.fill = fill, .radius = radius, .path = {{x, y}}, .stroke = {}};
 }
 
-inline protocol::Action disc_action(double x, double y, double radius, bool fill) {
-  return disc(x, y, radius, fill);
+/// A disc of one of three layers, which may not be there, or a change of layers.
+inline rc::Gen<protocol::Action> any_action() {
+  return rc::gen::exec([]() -> protocol::Action {
+    const auto layer = *rc::gen::inRange(0u, 3u);
+    const int lot = *rc::gen::inRange(0, 12);
+    if (lot == 0) return protocol::LayerChange{.layer = {}, .name = {}, .color = {}, .wall = {}};
+    if (lot == 1)
+      return protocol::LayerChange{.layer = layer, .name = "a", .color = {}, .wall = {{-1, 2}}};
+    const auto place = rc::gen::inRange(-60, 60);
+    protocol::Edit edit = disc(*place / 2.0, *place / 2.0, *rc::gen::inRange(0, 24) / 2.0,
+                               *rc::gen::weightedElement<bool>({{3, true}, {2, false}}));
+    edit.layer = lot < 4 ? layer : 0;
+    return edit;
+  });
 }
 
-/// Discs that fill and empty, close enough together that chunks come and go.
-inline rc::Gen<std::vector<protocol::Action>> some_edits() {
-  const auto place = rc::gen::map(rc::gen::inRange(-60, 60), [](int n) { return n / 2.0; });
-  return rc::gen::container<std::vector<protocol::Action>>(
-      rc::gen::apply(disc_action, place, place,
-                     rc::gen::map(rc::gen::inRange(0, 24), [](int n) { return n / 2.0; }),
-                     rc::gen::weightedElement<bool>({{3, true}, {2, false}})));
+/// What a map accepts of such: discs that fill and empty, close enough together that chunks come
+/// and go, and changes of layers.
+inline rc::Gen<std::vector<protocol::Action>> some_actions() {
+  return rc::gen::map(rc::gen::container<std::vector<protocol::Action>>(any_action()),
+                      [](std::vector<protocol::Action> actions) {
+                        protocol::MapSettings settings = small_identity().settings;
+                        std::erase_if(actions, [&settings](const protocol::Action& action) {
+                          if (!protocol::check_layers(action, settings)) return true;
+                          protocol::apply(action, settings);
+                          return false;
+                        });
+                        return actions;
+                      });
 }
 
 /// Appends `events`, with a keyframe after each of `keyframes` as of the seq it names.

@@ -37,7 +37,9 @@ class Writer {
   protocol::Result<void> put() {
     auto done = journal->put_chunks(log.states(keyframe));
     if (done) done = journal->put_authors(log.authors());
-    if (done) done = journal->put_keyframe({.seq = acknowledged, .map_hash = 1});
+    if (done)
+      done =
+          journal->put_keyframe({.seq = acknowledged, .map_hash = 1, .settings = log.settings()});
     if (done) keyframe = acknowledged;
     return done;
   }

@@ -302,8 +302,9 @@ void write_long_strokes(Journal& journal, SampleLog& log, std::size_t count) {
   const std::uint64_t expected = log.last_seq();
   auto batch = log.more(count);
   for (auto& event : batch) {
-    event.edit.is_path = true;
-    std::get<protocol::Edit>(event.action).path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
+    protocol::Edit stroke{.radius = 1, .path = {}, .is_path = true, .stroke = {}};
+    stroke.path.assign(1024, {-1000.0 / 7, 1000.0 / 7});
+    event.action = std::move(stroke);
   }
   ASSERT_TRUE(journal.append(expected, batch));
 }

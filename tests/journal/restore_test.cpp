@@ -30,7 +30,7 @@ std::vector<std::uint64_t> some_keyframes(std::size_t events) {
 }
 
 RC_GTEST_PROP(Restore, GivesTheFoldOfTheEventsAtAnySeq, ()) {
-  const auto events = accepted(*some_edits());
+  const auto events = accepted(*some_actions());
   const auto journal = journal_of(events, some_keyframes(events.size()));
   const auto seq = *rc::gen::inRange<std::uint64_t>(0, events.size() + 1);
 
@@ -39,6 +39,8 @@ RC_GTEST_PROP(Restore, GivesTheFoldOfTheEventsAtAnySeq, ()) {
   Execution expected = folded(events, seq);
   RC_ASSERT(restored->seq == seq);
   RC_ASSERT(restored->hash == expected.map.hash());
+  RC_ASSERT(restored->settings == expected.settings);
+  RC_ASSERT(restored->map.grid().layers == static_cast<int>(expected.settings.layers.size()));
   RC_ASSERT(restored->map.keys() == expected.map.keys());
   RC_ASSERT(restored->ages == expected.ages.in_order());
   RC_ASSERT(restored->authors == expected.authors.states());
@@ -46,7 +48,7 @@ RC_GTEST_PROP(Restore, GivesTheFoldOfTheEventsAtAnySeq, ()) {
 }
 
 RC_GTEST_PROP(Restore, StartsFromTheNewestKeyframeUpToTheSeq, ()) {
-  const auto events = accepted(*some_edits());
+  const auto events = accepted(*some_actions());
   const auto keyframes = some_keyframes(events.size());
   const auto journal = journal_of(events, keyframes);
   const auto seq = *rc::gen::inRange<std::uint64_t>(0, events.size() + 1);
@@ -99,6 +101,42 @@ TEST(Restore, ReadsTheLogInPages) {
   EXPECT_EQ(restored->seq, 300u);
 }
 
+std::vector<history::Event> with_layers() {
+  protocol::Edit roof = disc(4, 4, 3);
+  roof.layer = 1;
+  return accepted(
+      {disc(4, 4, 3), protocol::LayerChange{.layer = {}, .name = "roof", .color = {}, .wall = {}},
+       roof, protocol::LayerChange{.layer = 1, .name = "spire", .color = {}, .wall = {}}});
+}
+
+TEST(Restore, HasTheLayersOfTheSeqFromAKeyframeAndFromTheLog) {
+  for (const auto& keyframes : std::vector<std::vector<std::uint64_t>>{{}, {2}, {1, 3}, {4}}) {
+    const auto journal = journal_of(with_layers(), keyframes);
+    const auto layers = [&journal](std::uint64_t seq) {
+      return restore(*journal, seq, Trust::strict)->settings.layers;
+    };
+    EXPECT_EQ(layers(1).size(), 1u);
+    ASSERT_EQ(layers(3).size(), 2u);
+    EXPECT_EQ(layers(3)[1].name, "roof");
+    EXPECT_EQ(layers(4)[1].name, "spire");
+    EXPECT_EQ(journal->identity().settings, small_identity().settings);
+  }
+}
+
+TEST(Restore, RefusesAKeyframeOfSettingsThatTheMapCannotHave) {
+  const auto refusal = [](const std::function<void(protocol::MapSettings&)>& change) {
+    auto journal = journal_of(ten_events());
+    Keyframe keyframe{.seq = 4, .map_hash = 0, .settings = small_identity().settings};
+    change(keyframe.settings);
+    EXPECT_TRUE(journal->put_keyframe(keyframe));
+    return restore(*journal, {}, Trust::strict).error().detail;
+  };
+  const std::string cannot = "keyframes: seq 4: settings that the map cannot have";
+  EXPECT_EQ(refusal([](auto& settings) { settings.voxel_size = 2; }), cannot);
+  EXPECT_EQ(refusal([](auto& settings) { settings.layers.clear(); }), cannot);
+  EXPECT_NE(refusal([](auto& settings) { settings.layers.resize(3); }), cannot);
+}
+
 TEST(Restore, RefusesAHashThatDiffers) {
   TamperedJournal journal(journal_of(ten_events(), {4}));
   journal.change_event = [](history::Event& event) {
@@ -125,6 +163,12 @@ TEST(Restore, RefusesWhatNoRoomAccepts) {
               std::get<protocol::Edit>(event.action).layer = event.seq == 2 ? 1 : 0;
             }),
             "events: seq 2: layer: 1 is outside 0 .. 0");
+  EXPECT_EQ(refusal([](history::Event& event) {
+              if (event.seq == 2)
+                event.action =
+                    protocol::LayerChange{.layer = 1, .name = "a", .color = {}, .wall = {}};
+            }),
+            "events: seq 2: layer: 1 of a map with 1 layers");
   EXPECT_EQ(refusal([](history::Event& event) { event.id = event.seq == 4 ? 101 : event.id; }),
             "events: seq 4: id 101 is not above the last of author 00000000000000a1");
   EXPECT_EQ(refusal([](history::Event& event) { event.id = event.seq == 1 ? 0 : event.id; }),

@@ -136,7 +136,8 @@ namespace {
 std::string line_of(const Event& event) {
   std::string line = std::to_string(event.seq) + ' ' + std::to_string(event.time_ms) + ' ' +
                      std::to_string(event.author) + ' ' + std::to_string(event.id) + ' ' +
-                     protocol::hex(event.hash) + ' ' nlohmann::ordered_json action;
+                     protocol::hex(event.hash) + ' ';
+  nlohmann::ordered_json action;
   protocol::write_action(event.action, action);
   return line + action.dump();
 }

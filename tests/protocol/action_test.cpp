@@ -22,7 +22,7 @@ RC_GTEST_PROP(Action, ReadsWhatItWrites, ()) {
   write_action(action, written);
   RC_ASSERT(written.begin().key() == "kind");
   RC_ASSERT(read_action(json::parse(written.dump())) == action);
-  nlohmann::ordered_json fields;
+  nlohmann::ordered_json fields = nlohmann::ordered_json::object();
   write_fields(action, fields);
   RC_ASSERT(read_action(json::parse(fields.dump()), kind(action)) == action);
 }

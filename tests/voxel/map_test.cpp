@@ -56,6 +56,35 @@ void check_rules(const Grid& grid, const std::vector<Stencil>& edits) {
   RC_ASSERT(edges(map, Axis::y) == reference.edges(false));
 }
 
+TEST(Map, GrowsByALayerThatHoldsNothing) {
+  Map map(Grid{.layers = 1, .bounds = {}});
+  map.apply(0, {&kDisc, 1});
+  const std::uint64_t hash = map.hash();
+  map.set_layers(2);
+  EXPECT_EQ(map.grid().layers, 2);
+  EXPECT_EQ(map.hash(), hash);
+  EXPECT_FALSE(map.filled(1, 3, 3));
+  map.apply(1, {&kDisc, 1});
+  EXPECT_TRUE(map.filled(1, 3, 3));
+  EXPECT_NE(map.hash(), hash);
+}
+
+TEST(Map, ForgetsWhatALayerHeldThatGoes) {
+  Map map(Grid{.layers = 1, .bounds = {}});
+  map.apply(0, {&kDisc, 1});
+  const std::uint64_t hash = map.hash();
+  map.set_layers(3);
+  map.apply(1, {&kDisc, 1});
+  map.apply(2, {&kDisc, 1});
+  static_cast<void>(map.hash());
+  map.apply(2, {&kDisc, 1});
+  map.set_layers(1);
+  EXPECT_EQ(map.hash(), hash);
+  EXPECT_EQ(map.keys().back().layer, 0);
+  map.set_layers(2);
+  EXPECT_FALSE(map.filled(1, 3, 3));
+}
+
 RC_GTEST_PROP(Map, FollowsTheRulesOneVoxelAtATime, ()) { check_rules(*any_grid(), *any_edits(12)); }
 
 RC_GTEST_PROP(Map, FollowsTheRulesAtAnotherVoxelSize, ()) {
