@@ -206,7 +206,7 @@ TEST_F(RendererTest, PutsADotOnTheMiddleOfAVoxel) {
 
 TEST_F(RendererTest, IsAsFineAsItsPixels) {
   // Half as many CSS pixels, each of two: the same picture but for lines and dots.
-  DrawnMap map(one_layer(-1, 0));
+  DrawnMap map(one_layer(-8, 0));
   map.circle(0, 0, 15);
   const Pixels coarse = draw(map, {{0, 0}, 5, 0.2, 0.6});
   Picture picture = look_at(map.settings, {{0, 0}, 2.5, 0.2, 0.6}, kWidth / 2.0, kHeight / 2.0);
