@@ -9,11 +9,14 @@ server_packages=(
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev libpng-dev libsodium-dev
   prometheus-cpp-dev libsqlite3-dev
 )
+# What the page is built with beside the above; it brings node.
+# shellcheck disable=SC2034
+page_packages=(emscripten)
 # llvm-19 holds the symbolizer that makes a sanitizer's stack traces readable.
 # shellcheck disable=SC2034
 test_packages=(
   clang-tidy-19 libclang-rt-19-dev llvm-19 clang-format-14
-  libgtest-dev librapidcheck-dev libbenchmark-dev
+  libgtest-dev librapidcheck-dev libbenchmark-dev libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
 )
 
 is_installed() {
