@@ -95,6 +95,18 @@ struct NoticesPart {
   friend bool operator==(const NoticesPart&, const NoticesPart&) = default;
 };
 
+/// "shortcuts": {"shortcuts": [{"keys": ["f"], "does": "Fill"}]}: what keys do, once, for the `?`
+/// dialog. Keys are as in KeyEvent.
+struct ShortcutsPart {
+  struct Shortcut {
+    std::vector<std::string> keys;  ///< Each of them does it.
+    std::string does;
+    friend bool operator==(const Shortcut&, const Shortcut&) = default;
+  };
+  std::vector<Shortcut> shortcuts;
+  friend bool operator==(const ShortcutsPart&, const ShortcutsPart&) = default;
+};
+
 struct PanelChanges {
   std::optional<ConnectionPart> connection;
   std::optional<MapPart> map;
@@ -104,6 +116,7 @@ struct PanelChanges {
   std::optional<StatusPart> status;
   std::optional<CameraPart> camera;
   std::optional<NoticesPart> notices;
+  std::optional<ShortcutsPart> shortcuts;
 };
 
 /// One object with the parts that are there.

@@ -1,0 +1,33 @@
+/// What is drawn over a map's meshes: where it ends, the brush in hand, the cursors of the others;
+/// and the words that stand beside them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "client/viewer/notices.hpp"
+#include "client/viewer/panel_state.hpp"
+#include "client/viewer/people.hpp"
+#include "client/viewer/picture.hpp"
+#include "protocol/settings.hpp"
+
+namespace earthwork::viewer {
+
+/// Where layer `layer` is painted on and pointed at: its top; 0 for one that is not there.
+[[nodiscard]] double height_of(std::uint32_t layer, const protocol::MapSettings& settings);
+
+/// Around a map with bounds; nothing around one without.
+void add_border(Picture& picture);
+/// The exact edge of the next stamp, aimed at `at`.
+void add_own_brush(Picture& picture, const scene::BrushSettings& brush, protocol::MapPoint at);
+/// Where the others point: the outline of what they hold, or a small cross.
+void add_cursors(Picture& picture, const People& people);
+
+/// Names of people at their cursors, and words of notices at their places, as far as they are on
+/// the screen.
+[[nodiscard]] std::vector<Label> labels_of(const People& people,
+                                           const std::vector<const NoticesPart::Notice*>& notices,
+                                           const scene::Camera& camera,
+                                           const protocol::MapSettings& settings);
+
+}  // namespace earthwork::viewer
