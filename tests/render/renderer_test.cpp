@@ -111,6 +111,19 @@ TEST_F(RendererTest, DoesNotDrawHiddenLayers) {
   EXPECT_EQ(counts_.triangles, 0u);
 }
 
+TEST_F(RendererTest, DarkensGroundOnceWhereShadowsMeet) {
+  protocol::MapSettings settings;
+  settings.layers = {layer("#ff0000", -1, 5), layer("#0000ff", -1, 5.5)};
+  DrawnMap map(settings);
+  const int x = kWidth / 2 + 36, y = kHeight / 2 + 12;  // right of the squares, on the ground
+  const auto bright = color_at(draw(map, kAbove), x, y);
+  map.square(0, 0, 5, 0);
+  const auto dark = color_at(draw(map, kAbove), x, y);
+  EXPECT_LT(dark[0], bright[0] - 20);
+  map.square(0, 0, 5, 1);
+  EXPECT_EQ(color_at(draw(map, kAbove), x, y), dark);
+}
+
 TEST_F(RendererTest, FollowsTheScene) {
   DrawnMap map(one_layer(-1, 0));
   const Pixels nothing = draw(map, kAbove);

@@ -121,7 +121,7 @@ class Strip {
       const Direction out = end ? in : direction(at, points[(i + 1) % n]);
       corner(at, in, out);
     }
-    if (run.closed) corner_again();
+    if (run.closed) close();
   }
 
  private:
@@ -154,7 +154,7 @@ class Strip {
            static_cast<std::uint32_t>(out_.vertices.size()) - 2);
   }
 
-  void corner_again() { join(static_cast<std::uint32_t>(out_.vertices.size()) - 2, first_); }
+  void close() { join(static_cast<std::uint32_t>(out_.vertices.size()) - 2, first_); }
 
   void join(std::uint32_t a, std::uint32_t b) {
     for (const std::uint32_t index : {a, a + 1, b, b, a + 1, b + 1}) out_.indices.push_back(index);

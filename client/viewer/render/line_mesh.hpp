@@ -30,7 +30,7 @@ struct LineMesh {
 
   void clear() { vertices.clear(), indices.clear(); }
   /// Appends what is on the screen, or not far beside it, of the line through `points` at
-  /// `height`. Points that are not finite, or too many for a map, are no concern of it.
+  /// `height`; all of them finite, map units.
   void add(const Picture& picture, std::span<const protocol::MapPoint> points, bool closed,
            double height, const LineStyle& style);
 };
