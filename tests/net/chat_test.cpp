@@ -52,6 +52,7 @@ TEST_F(ChatTest, IsForWhoHasJoined) {
   ann.one<protocol::Welcome>(kHello);
   ann.refused(chat("hi", 1), Code::bad_state, 1);
   ann.one<protocol::Joined>(kJoin);
+  later(ann, 1s);
   EXPECT_EQ(lines(ann.say(chat("hi"))), std::vector<std::string>{"hi"});
   ann.say(R"({"type":"leave"})");
   ann.refused(chat("hi", 2), Code::bad_state, 2);
@@ -80,6 +81,7 @@ TEST_F(ChatTest, WhatIsTooLongOrEmptyIsRefusedAndNotCounted) {
     ann.refused(chat("", 8), Code::out_of_range, 8);
     ann.refused(chat("a\\u0000b", 9), Code::bad_field, 9);
   }
+  later(ann, 1s);
   EXPECT_EQ(lines(ann.say(chat(std::string(500, 'x')))).size(), 1u);
 }
 
