@@ -52,7 +52,9 @@ std::size_t Dots::draw(const Picture& picture, const Projection& projection) con
   if (!ground) return 0;
   plane_.use(projection);
   glUniform1f(ratio_, static_cast<float>(projection.pixel_ratio));
-  plane_.draw(*ground, height, kLayerBias * protocol::kMaxLayers, projection);
+  // Before all layers that share the plane, and no further, or dots would shine through the feet of
+  // walls that stand on it.
+  plane_.draw(*ground, height, kLayerBias * static_cast<float>(layers.size()), projection);
   return 1;
 }
 

@@ -18,8 +18,8 @@ struct DrawCounts {
   std::size_t triangles = 0;  ///< Of surfaces and walls, in view.
 };
 
-/// On the thread on which the context is current, also its end. A lost context takes all with it:
-/// make another one.
+/// On the thread on which the context is current. A lost context takes all with it: make another
+/// one, once there is a context again. A renderer whose context is lost may end at any time.
 class Renderer {
  public:
   /// Needs a current context. Fails with not_supported, telling what the driver said.
