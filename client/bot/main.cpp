@@ -61,7 +61,8 @@ void add_patience(CLI::App& command, Options& options) {
 
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App& run = *app.add_subcommand("run", "Sends the edits of a script in order");
-  run.add_option("SCRIPT", options.script, "JSON lines: the map's settings, then edits")
+  run.add_option("SCRIPT", options.script,
+                 "JSON lines: the map's settings, then edits and changes of layers")
       ->required();
   add_target(run, options);
   run.add_flag("--create", options.create,

@@ -55,9 +55,9 @@ struct AuthorState {
 /// With it, the chunk states up to `seq` are all there are: what it names has been put.
 struct Keyframe {
   std::uint64_t seq = 0;
-  std::uint64_t map_hash = 0;      ///< voxel::Map::hash() as of `seq`.
-  std::int64_t time_ms = 0;        ///< When it was made.
-  protocol::MapSettings settings;  ///< As of `seq`.
+  std::uint64_t map_hash = 0;        ///< voxel::Map::hash() as of `seq`.
+  std::int64_t time_ms = 0;          ///< When it was made.
+  protocol::MapSettings settings{};  ///< As of `seq`.
   friend bool operator==(const Keyframe&, const Keyframe&) = default;
 };
 

@@ -118,12 +118,13 @@ void Room::heard(ViewerId viewer) { herald_.heard(viewer); }
 
 protocol::Result<void> Room::point(ViewerId viewer, const protocol::Cursor& cursor) {
   if (!seats_.contains(viewer)) return protocol::fail(Code::bad_state, "cursor: join a map first");
+  const auto known = settings_.durable();  // of a layer that nobody was told of nobody points
   if (cursor.at) {
     const protocol::Edit stamp = stamp_at(*cursor.at, cursor.brush.value_or(protocol::Brush{}));
-    if (auto checked = protocol::check_edit(stamp, settings_.accepted()); !checked) return checked;
+    if (auto checked = protocol::check_edit(stamp, *known); !checked) return checked;
   }
   if (cursor.view) {
-    if (auto checked = protocol::check_seen(*cursor.view, settings()); !checked) return checked;
+    if (auto checked = protocol::check_seen(*cursor.view, *known); !checked) return checked;
   }
   herald_.point(viewer, cursor);
   return {};

@@ -113,10 +113,10 @@ class Room : public std::enable_shared_from_this<Room> {
   /// The viewer has sent the last talk on, and takes the next one.
   void heard(ViewerId viewer);
 
-  /// Where the viewer points, for the others. Fails as `submit` would for a stamp of its brush
-  /// there, or of radius 0, and as `check_seen` for what it sees. Of what comes before the others
-  /// are told, ten times a second, the last counts; a cursor that is not said again for kCursorMs
-  /// is hidden.
+  /// Where the viewer points, for the others. Fails as `check_edit` does, with the durable
+  /// settings, for a stamp of its brush there, or of radius 0, and as `check_seen` for what it
+  /// sees. Of what comes before the others are told, ten times a second, the last counts; a cursor
+  /// that is not said again for kCursorMs is hidden.
   [[nodiscard]] protocol::Result<void> point(ViewerId viewer, const protocol::Cursor& cursor);
   /// Says something to all who are inside, the viewer too, and to who will join: 1 to
   /// kMaxChatCharacters characters.

@@ -265,7 +265,7 @@ TEST(MapFileDamage, AChangedRowIsNamed) {
            {"INSERT INTO meta VALUES('more', 'x')", "meta"},
            {"UPDATE events SET time_ms = time_ms + 1 WHERE seq = 5", "batches: seq 4"},
            {"UPDATE events SET command = x'00' WHERE seq = 5", "events: seq 5"},
-           {"UPDATE events SET kind = 'edit' WHERE seq = 9", "events: seq 9"},
+           {"UPDATE events SET kind = 'edit' WHERE seq = 9", "batches: seq 4"},
            {"DELETE FROM events WHERE seq = 5", "events: seq 5"},
            {"DELETE FROM events WHERE seq = 12", "events: seq 12"},
            {"UPDATE batches SET last_seq = 11 WHERE first_seq = 4", "12"},

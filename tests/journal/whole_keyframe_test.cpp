@@ -12,8 +12,10 @@ namespace {
 TEST(WholeKeyframe, HasEveryChunkAndAuthor) {
   const auto journal = journal_of(ten_events(), {10});
   EXPECT_EQ(journal->keyframes().value(),
-            (std::vector<Keyframe>{
-                {.seq = 10, .map_hash = ten_events()[9].hash, .time_ms = 1700000000100}}));
+            (std::vector<Keyframe>{{.seq = 10,
+                                    .map_hash = ten_events()[9].hash,
+                                    .time_ms = 1700000000100,
+                                    .settings = small_identity().settings}}));
   EXPECT_EQ(journal->authors()->size(), 3u);
   EXPECT_TRUE(audit(*journal)->sound());
 }

@@ -400,7 +400,7 @@ TEST(Keyframer, AClerkThatWorksAtOnceIsNotCalledFromItsTasks) {
   });
   ManualContext context;
   const auto clock = context.make_strand();
-  Keyframer keyframer({start->map,
+  Keyframer keyframer({start->map, start->settings,
                        [&](std::uint64_t author) {
                          return *std::find_if(start->authors.begin(), start->authors.end(),
                                               [&](const auto& a) { return a.author == author; });

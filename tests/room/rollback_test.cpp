@@ -30,6 +30,21 @@ protocol::Edit some_edit() {
   return large;
 }
 
+/// Mostly an edit of the first layer; sometimes of another one, which may not be there.
+protocol::Action some_action() {
+  const auto layer = *rc::gen::inRange(0u, 4u);
+  switch (*rc::gen::weightedElement<int>({{12, 0}, {6, 1}, {2, 2}, {1, 3}})) {
+    case 0:
+      return some_edit();
+    case 1:
+      return on_layer(layer, some_edit());
+    case 2:
+      return add_layer("added");
+    default:
+      return rename_layer(layer, "named");
+  }
+}
+
 /// What a viewer was told, and whether it could be.
 struct Witness {
   World::Guest guest;
@@ -76,10 +91,13 @@ struct Witness {
 /// The log folds to what is durable, and its events are those that were acknowledged.
 void check_log(SlowWorld& world) {
   const auto events = world.events();
-  voxel::Map again = history::make_map(world.room->settings());
+  voxel::Map again = history::make_map(world.journal->identity().settings);
   RC_ASSERT(history::verify(again, events) == std::nullopt);
   RC_ASSERT(again.hash() == world.room->info().hash);
   RC_ASSERT(events.size() == world.room->info().seq);
+  protocol::MapSettings settings = world.journal->identity().settings;
+  for (const history::Event& event : events) protocol::apply(event.action, settings);
+  RC_ASSERT(settings == world.room->settings());
 }
 
 void step(SlowWorld& world, std::vector<Witness>& witnesses) {
@@ -87,7 +105,7 @@ void step(SlowWorld& world, std::vector<Witness>& witnesses) {
   switch (*rc::gen::weightedElement<int>(
       {{5, 0}, {5, 1}, {4, 2}, {2, 3}, {4, 4}, {1, 5}, {1, 6}, {2, 7}, {1, 8}})) {
     case 0:
-      (void)world.submit(who.guest, some_edit());  // refused for a second after a failure
+      (void)world.submit(who.guest, some_action());  // refused for a second after a failure
       break;
     case 1:
       world.context.run(*rc::gen::inRange(1, 8));
@@ -154,8 +172,7 @@ TEST(Rollback, EverybodyEndsWithWhatIsStored) {
     // And meshes that were never taken back are the same.
     World anew;
     World::Guest painter = anew.enter();
-    for (const history::Event& event : world.events())
-      anew.edit(painter, std::get<protocol::Edit>(event.action));
+    for (const history::Event& event : world.events()) anew.edit(painter, event.action);
     RC_ASSERT(anew.mesh_hash() == hash);
   }));
 }
