@@ -29,9 +29,9 @@ void Figures::draw(const Drawn& drawn) {
 }
 
 std::string Figures::write(std::size_t heap_bytes) const {
-  nlohmann::json out{{"frames", frames_},    {"input_to_picture_ms", input_to_picture_ms_},
-                     {"draw_ms", draw_ms_},  {"triangles", last_.triangles},
-                     {"draws", last_.draws}, {"heap_bytes", heap_bytes}};
+  nlohmann::ordered_json out{{"frames", frames_},    {"input_to_picture_ms", input_to_picture_ms_},
+                             {"draw_ms", draw_ms_},  {"triangles", last_.triangles},
+                             {"draws", last_.draws}, {"heap_bytes", heap_bytes}};
   if (first_picture_ms_) out["first_picture_ms"] = *first_picture_ms_;
   if (whole_picture_ms_) out["whole_picture_ms"] = *whole_picture_ms_;
   return out.dump();

@@ -32,7 +32,8 @@ const char* give_back(std::string text) {
 const char* answer(const protocol::Result<void>& result) {
   if (result) return "";
   const protocol::Failure& failure = result.error();
-  return give_back(nlohmann::json{{"field", failure.field}, {"message", failure.detail}}.dump());
+  return give_back(
+      nlohmann::ordered_json{{"field", failure.field}, {"message", failure.detail}}.dump());
 }
 
 protocol::Result<void> start(const char* json) {

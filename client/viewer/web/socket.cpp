@@ -1,6 +1,6 @@
 #include "client/viewer/web/socket.hpp"
 
-#include <emscripten.h>
+#include <emscripten/html5.h>
 #include <emscripten/websocket.h>
 
 #include <array>
@@ -56,8 +56,8 @@ void Socket::open() {
   handle_ = emscripten_websocket_new(&attributes);
   if (handle_ <= 0) {
     handle_ = 0;
-    emscripten_async_call([](void* user) { listener_of(user).socket_closed(kNoClosingCode, {}); },
-                          &listener_, 0);
+    emscripten_set_timeout([](void* user) { listener_of(user).socket_closed(kNoClosingCode, {}); },
+                           0, &listener_);
     return;
   }
   // A failure is told as an error and then as a close; the close says all that there is to know.
