@@ -73,7 +73,6 @@ test('a map is made, changed, talked about, painted and exported by keys', async
   const guest = await browser.page();
   t.after(() => guest.context().close());
   await openMap(guest, server, 'keys');
-  await guest.locator('#person-name').evaluate(() => {});
   const name = await guest.evaluate(() => JSON.parse(localStorage['earthwork.person']).name);
   await page.getByRole('button', { name: `Follow ${name}` }).waitFor();
   await page.waitForFunction((label) =>

@@ -25,7 +25,9 @@ export class RealServer {
     return server;
   }
 
+  // Once it was killed; else nothing happens.
   async startAgain() {
+    if (this.#process && this.#process.exitCode === null && this.#process.signalCode === null) return;
     const process = spawn(program, ['serve', '--data', path.join(this.#folder, 'data'),
       '--listen', `127.0.0.1:${this.#port}`, '--page', page], { stdio: ['ignore', 'pipe', 'inherit'] });
     const ended = once(process, 'exit').then(([status]) => `it ended with ${status}`);
