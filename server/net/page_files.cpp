@@ -1,16 +1,12 @@
 #include "server/net/page_files.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <array>
 #include <boost/crc.hpp>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
+#include <fstream>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -97,47 +93,22 @@ Result<std::vector<std::string>> names_in(const std::filesystem::path& folder) {
   return names;
 }
 
-/// A file that is open; closed at the end.
-class OpenFile {
- public:
-  // A link is not followed, and a pipe not waited for.
-  explicit OpenFile(const std::filesystem::path& path)
-      : number_(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {}
-  ~OpenFile() {
-    if (number_ >= 0) ::close(number_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  const int number_;
-};
-
 /// The bytes of a plain file of up to `most` bytes.
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t most) {
-  const auto failed = [&] {
-    return fail(Code::storage_failed, path.string() + ": " + std::strerror(errno));
-  };
-  const OpenFile file(path);
-  struct stat about {};
-  const bool link = file.number() < 0 && errno == ELOOP;
-  if (!link && (file.number() < 0 || ::fstat(file.number(), &about) != 0)) return failed();
-  if (link || !S_ISREG(about.st_mode))
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);  // a link is not followed
+  if (!error && !std::filesystem::is_regular_file(status))
     return fail(Code::bad_field, path.string() + ": is not a plain file");
-
-  std::string bytes;
-  std::array<char, 64 * 1024> part{};
-  for (;;) {
-    const ssize_t count = ::read(file.number(), part.data(), part.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return failed();
-    if (count == 0) return bytes;
-    bytes.append(part.data(), static_cast<std::size_t>(count));
-    if (bytes.size() > most)
-      return fail(Code::too_large, path.string() + ": the folder's files have more than " +
-                                       std::to_string(kMaxPageBytes) + " bytes");
-  }
+  const std::uintmax_t size = error ? 0 : std::filesystem::file_size(path, error);
+  if (error) return fail(Code::storage_failed, path.string() + ": " + error.message());
+  if (size > most)
+    return fail(Code::too_large, path.string() + ": the folder's files have more than " +
+                                     std::to_string(kMaxPageBytes) + " bytes");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    return fail(Code::storage_failed, path.string() + ": cannot be read");
+  return bytes;
 }
 
 std::uint32_t u32_at(const std::string& bytes, std::size_t at) {

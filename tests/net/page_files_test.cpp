@@ -175,6 +175,11 @@ TEST_F(PageFilesTest, WantsAFolder) {
   EXPECT_FALSE(PageFiles::read(folder.path() / "index.html"));
 }
 
+TEST_F(PageFilesTest, AnEmptyFileIsOne) {
+  folder.put("empty.txt", "");
+  EXPECT_EQ(read().answer("empty.txt", asking())->bytes(), "");
+}
+
 TEST_F(PageFilesTest, TakesPlainFilesOnly) {
   std::filesystem::create_directory(folder.path() / "sub");
   refused(Code::bad_field, "sub: is not a plain file");
