@@ -74,18 +74,17 @@ void Pilot::fit(const MapSettings& settings, const scene::Scene::Chunks& chunks)
 
 // What was found only grows: of a map that is larger than a view may be, each view has another
 // part.
-bool Pilot::caught_up(const MapSettings& settings, const scene::Scene::Chunks& chunks) {
-  if (rounds_ == 0) return false;
+void Pilot::caught_up(const MapSettings& settings, const scene::Scene::Chunks& chunks) {
+  if (rounds_ == 0) return;
   --rounds_;
   const auto there = extent_of(chunks, settings);
   const auto all = there && found_ ? united(*there, *found_) : there;
   if (!all || all == found_) {
     rounds_ = 0;
-    return false;
+    return;
   }
   found_ = all;
   show(*all);
-  return true;
 }
 
 void Pilot::act(const MoveCamera& move) {

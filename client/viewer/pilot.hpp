@@ -27,9 +27,10 @@ class Pilot {
   void start(const protocol::MapSettings& settings, const std::optional<scene::Camera::Place>& at);
   /// Shows all of the map: its bounds, or where these chunks are and what is found beside them.
   void fit(const protocol::MapSettings& settings, const scene::Scene::Chunks& chunks);
-  /// All that was asked for has arrived. True when there was more than is seen, so that the camera
-  /// has moved.
-  bool caught_up(const protocol::MapSettings& settings, const scene::Scene::Chunks& chunks);
+  /// All that was asked for has arrived: shows all of it, if that is what the camera shows.
+  void caught_up(const protocol::MapSettings& settings, const scene::Scene::Chunks& chunks);
+  /// What the camera shows now is there already: nothing more is to be found.
+  void rest() { rounds_ = 0; }
   /// Any other action than fit.
   void act(const MoveCamera& move);
 

@@ -132,7 +132,7 @@ void Session::take_live(const protocol::ServerMessage& message, Time now) {
   const auto* done = std::get_if<protocol::Done>(&message);
   if (done && done->id == kPingId && std::exchange(ping_unanswered_, false)) {
     latency_ms_ = std::chrono::duration<double, std::milli>(now - ping_sent_).count();
-    return;
+    return watch(now);
   }
   if (std::holds_alternative<protocol::Welcome>(message) ||
       std::holds_alternative<protocol::Joined>(message))

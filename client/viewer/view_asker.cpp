@@ -16,9 +16,9 @@ namespace {
 
 // On each side, of the seen part's width and height.
 constexpr double kMargin = 0.3;
-// What must be held of a part that is too large to be asked for: less than what was asked, so that
+// Of a part that is too large to be asked for, this much of what was asked must be held, so that
 // there is room to move here too.
-constexpr std::uint64_t kMostNeeded = protocol::kMaxViewChunks / 2;
+constexpr double kNeeded = 0.7;
 // A view that has so many times the chunks that would be asked for now costs for nothing.
 constexpr std::uint64_t kMuchLarger = 6, kNeverTooLarge = 256;
 
@@ -40,15 +40,23 @@ MapRect grown(const MapRect& rect) {
   return {rect.x0 - x, rect.y0 - y, rect.x1 + x, rect.y1 + y};
 }
 
-/// No more than `most` chunks of it, around `middle` or what of the rectangle is nearest to that.
-MapRect shrunk(MapRect rect, MapPoint middle, std::uint64_t most, const MapSettings& settings) {
-  middle = {std::clamp(middle.x, rect.x0, rect.x1), std::clamp(middle.y, rect.y0, rect.y1)};
+MapRect scaled(const MapRect& rect, MapPoint about, double by) {
+  return {about.x + by * (rect.x0 - about.x), about.y + by * (rect.y0 - about.y),
+          about.x + by * (rect.x1 - about.x), about.y + by * (rect.y1 - about.y)};
+}
+
+MapPoint nearest(MapPoint to, const MapRect& rect) {
+  return {std::clamp(to.x, rect.x0, rect.x1), std::clamp(to.y, rect.y0, rect.y1)};
+}
+
+/// No more than kMaxViewChunks of it, around `middle`, which lies in it.
+MapRect shrunk(MapRect rect, MapPoint middle, const MapSettings& settings) {
+  constexpr std::uint64_t kMost = protocol::kMaxViewChunks;
   for (;;) {
     const std::uint64_t count = protocol::chunks_of_cells(rect, settings).count();
-    if (count <= most) return rect;
-    const double by = 0.98 * std::sqrt(static_cast<double>(most) / static_cast<double>(count));
-    rect = {middle.x + by * (rect.x0 - middle.x), middle.y + by * (rect.y0 - middle.y),
-            middle.x + by * (rect.x1 - middle.x), middle.y + by * (rect.y1 - middle.y)};
+    if (count <= kMost) return rect;
+    rect = scaled(rect, middle,
+                  0.98 * std::sqrt(static_cast<double>(kMost) / static_cast<double>(count)));
   }
 }
 
@@ -62,9 +70,11 @@ std::optional<protocol::View> ViewAsker::ask(const MapRect& seen, MapPoint targe
                                              const MapSettings& settings, Time now) {
   due_.reset();
   const MapRect map = extent(settings);
-  const MapRect needed = shrunk(clipped(seen, map), target, kMostNeeded, settings);
-  const MapRect wanted =
-      shrunk(clipped(grown(clipped(seen, map)), map), target, protocol::kMaxViewChunks, settings);
+  const MapRect there = clipped(seen, map);
+  const MapPoint middle = nearest(target, there);
+  const MapRect large = clipped(grown(there), map);
+  const MapRect wanted = shrunk(large, middle, settings);
+  const MapRect needed = wanted == large ? there : clipped(there, scaled(wanted, middle, kNeeded));
   if (asked_) {
     const std::uint64_t fitting = protocol::chunks_of_cells(wanted, settings).count();
     const bool too_large = asked_->count() > std::max(kMuchLarger * fitting, kNeverTooLarge);

@@ -88,7 +88,11 @@ void Viewer::State::take(const protocol::SettingsChanged& changed) {
 
 void Viewer::State::take(const protocol::CaughtUp& caught_up) {
   meshes.catch_up(caught_up.n, caught_up.seq);
-  if (caught_up.n == asker.last()) pilot.caught_up(*settings, meshes.chunks());
+  if (caught_up.n != asker.last()) return;
+  pilot.caught_up(*settings, meshes.chunks());
+  const protocol::MapRect known = asker.rect(), seen = pilot.wanted(*settings);
+  if (known.x0 <= seen.x0 && known.y0 <= seen.y0 && seen.x1 <= known.x1 && seen.y1 <= known.y1)
+    pilot.rest();
 }
 
 void Viewer::State::take(const protocol::Presence& presence) {
