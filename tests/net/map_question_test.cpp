@@ -66,7 +66,9 @@ struct MapQuestionTest : testing::Test {
   }
   void paint() {
     EXPECT_TRUE(room->submit(
-        viewer, {.id = ++id, .author = 7, .action = protocol::Edit{.radius = 3, .path = {{5, 5}}, .stroke = {}}}));
+        viewer, {.id = ++id,
+                 .author = 7,
+                 .action = protocol::Edit{.radius = 3, .path = {{5, 5}}, .stroke = {}}}));
     context.run();
   }
 

@@ -28,7 +28,9 @@ struct SurveyTest : testing::Test {
   }
   void submit(room::Room& room, room::ViewerId viewer, protocol::MessageId id) {
     ASSERT_TRUE(room.submit(
-        viewer, {.id = id, .author = 1, .action = protocol::Edit{.radius = 3, .path = {{10, 10}}, .stroke = {}}}));
+        viewer, {.id = id,
+                 .author = 1,
+                 .action = protocol::Edit{.radius = 3, .path = {{10, 10}}, .stroke = {}}}));
   }
   Survey::Told note() {
     return [this](const MapTotals& totals) { told.push_back(totals); };
