@@ -233,8 +233,6 @@ test('name and colour are remembered, the key by the tab alone', async (t) => {
   await page.getByRole('radio', { name: /#9a52c7/ }).check();
   await page.keyboard.press('Enter');
   assert.deepEqual(await commands(page), [{ do: 'person', name: 'Zoë', color: '#9a52c7' }]);
-  const copy = await page.evaluate(() => ({ ...sessionStorage }));
-  assert.deepEqual(copy, {});  // what a duplicated tab would start with
 
   await page.reload();
   await page.waitForFunction(() => window.fake?.options);
@@ -242,6 +240,8 @@ test('name and colour are remembered, the key by the tab alone', async (t) => {
   assert.equal(second.name, 'Zoë');
   assert.equal(second.key, 'f'.repeat(32));
   assert.ok(second.last_id > first.last_id);
+  // What a duplicated tab would start with.
+  assert.deepEqual(await page.evaluate(() => ({ ...sessionStorage })), {});
 
   const tab = await openTab(page.context());
   await tab.goto(`${server.url}/?map=demo`);
@@ -256,10 +256,14 @@ test('a lost connection is told in words, with a countdown and a button', async 
   assert.match(await page.locator('#banner-words').textContent(),
     /^The server is away\. Next attempt in (10|9) s\.$/);
   assert.equal(await page.locator('#alert').textContent(), 'The server is away.');
+  await tell(page, { status: { seq: 7, fps: 0, bytes: 0, chunks: 1, triangles: 2, unanswered: 3,
+    caught_up: true } });
+  assert.equal(await page.locator('#status-progress').textContent(), '3 edits wait for the server');
   await page.getByRole('button', { name: 'Retry now' }).click();
   assert.deepEqual(await commands(page), [{ do: 'retry' }]);
   await tell(page, { connection: { state: 'joined', words: '' } });
   assert.ok(await page.locator('#banner').isHidden());
+  assert.ok(await page.locator('#status-progress').isHidden());
   await tell(page, { connection: { state: 'ended', words: 'The map was deleted.' } });
   await page.getByRole('button', { name: 'Choose a map' }).click();
   assert.ok(await page.locator('#maps-dialog').isVisible());

@@ -1,21 +1,23 @@
-// The line of figures, and how far the first picture is.
+// The line of figures, how far the first picture is, and what waits for the server to be back.
 import { byId, setText } from './dom.mjs';
 import { bytes, milliseconds, whole } from './words.mjs';
 
 const NONE = '–';
 
 export function statusLine(viewer) {
-  const progress = byId('progress');
+  const [progress, words] = [byId('progress'), byId('status-progress')];
 
   function wait() {
     const [status, connection] = [viewer.part('status'), viewer.part('connection')];
-    const waits = connection?.state !== 'ended' && connection?.state !== 'lost' && !status?.caught_up;
-    progress.hidden = !waits;
-    const chunks = status?.chunks ?? 0;
-    progress.setAttribute('aria-valuetext', `${whole(chunks)} chunks`);
-    const words = byId('status-progress');
-    words.hidden = !waits;
-    setText(words, chunks > 0 ? `Loading, ${whole(chunks)} chunks` : 'Loading');
+    const away = connection?.state === 'lost';
+    const loads = !away && connection?.state !== 'ended' && !status?.caught_up;
+    const chunks = whole(status?.chunks ?? 0);
+    const kept = away ? status?.unanswered ?? 0 : 0;
+    progress.hidden = !loads;
+    progress.setAttribute('aria-valuetext', `${chunks} chunks`);
+    words.hidden = !loads && kept === 0;
+    setText(words, loads ? `Loading, ${chunks} chunks`
+      : `${whole(kept)} ${kept === 1 ? 'edit waits' : 'edits wait'} for the server`);
   }
   viewer.on('connection', wait);
   viewer.on('status', (part) => {
