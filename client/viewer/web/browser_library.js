@@ -3,7 +3,7 @@
 //
 // Pointers come by listeners of our own: html5.h knows no pointer events, and so no pens, no capture
 // of a drag, and not the points between two pictures.
-mergeInto(LibraryManager.library, {
+mergeInto(LibraryManager["library"], {
   // An exception must not pass through WebAssembly: its stack would stay as it was then.
   browser_call_hook: function (name, json) {
     const hook = Module[UTF8ToString(name)];
