@@ -5,14 +5,12 @@
 namespace earthwork::viewer {
 
 using protocol::MapPoint;
-using scene::ScreenPoint;
 
 namespace {
 
 constexpr const char* kFills = "#ffffff";
 constexpr const char* kEmpties = "#ff6b4a";
 constexpr const char* kShade = "#101418";
-constexpr const char* kWarning = "#c0392b";
 constexpr float kShadeOpacity = 0.55F, kBorderOpacity = 0.5F;
 // CSS pixels.
 constexpr double kBrushWidth = 2, kShadeWidth = 4.5, kCursorWidth = 2, kBorderWidth = 1.5;
@@ -45,10 +43,6 @@ void add(Picture& picture, Outline outline, Color color, double width) {
   outline.color = color;
   outline.width = width;
   picture.outlines.push_back(std::move(outline));
-}
-
-bool on_screen(ScreenPoint at, scene::ScreenSize size) {
-  return 0 <= at.x && at.x <= size.width && 0 <= at.y && at.y <= size.height;
 }
 
 }  // namespace
@@ -85,26 +79,6 @@ void add_cursors(Picture& picture, const People& people) {
     add(picture, mark(picture, person.brush, *person.cursor), color_of(person.user.color),
         kCursorWidth);
   }
-}
-
-std::vector<Label> labels_of(const People& people,
-                             const std::vector<const NoticesPart::Notice*>& notices,
-                             const scene::Camera& camera, const protocol::MapSettings& settings) {
-  std::vector<Label> labels;
-  const auto add_label = [&](Label::Kind kind, const std::string& text, const std::string& color,
-                             MapPoint point, double height) {
-    const auto at = camera.screen({point.x, point.y, height});
-    if (at && on_screen(*at, camera.size()))
-      labels.push_back({.kind = kind, .text = text, .color = color, .at = *at});
-  };
-  for (const auto& [session, person] : people.persons()) {
-    if (!person.cursor || people.is_me(session)) continue;
-    add_label(Label::Kind::person, person.user.name, person.user.color, *person.cursor,
-              height_of(person.brush ? person.brush->layer : 0, settings));
-  }
-  for (const NoticesPart::Notice* notice : notices)
-    if (notice->at) add_label(Label::Kind::notice, notice->words, kWarning, *notice->at, 0);
-  return labels;
 }
 
 }  // namespace earthwork::viewer

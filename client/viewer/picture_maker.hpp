@@ -1,12 +1,9 @@
-/// What is drawn over a map's meshes: where it ends, the brush in hand, the cursors of the others;
-/// and the words that stand beside them.
+/// What is drawn over a map's meshes: where it ends, the brush in hand, the cursors of the others.
 #pragma once
 
-#include <optional>
-#include <vector>
+#include <cstdint>
 
-#include "client/viewer/notices.hpp"
-#include "client/viewer/panel_state.hpp"
+#include "client/scene/brush.hpp"
 #include "client/viewer/people.hpp"
 #include "client/viewer/picture.hpp"
 #include "protocol/settings.hpp"
@@ -22,12 +19,5 @@ void add_border(Picture& picture);
 void add_own_brush(Picture& picture, const scene::BrushSettings& brush, protocol::MapPoint at);
 /// Where the others point: the outline of what they hold, or a small cross.
 void add_cursors(Picture& picture, const People& people);
-
-/// Names of people at their cursors, and words of notices at their places, as far as they are on
-/// the screen.
-[[nodiscard]] std::vector<Label> labels_of(const People& people,
-                                           const std::vector<const NoticesPart::Notice*>& notices,
-                                           const scene::Camera& camera,
-                                           const protocol::MapSettings& settings);
 
 }  // namespace earthwork::viewer

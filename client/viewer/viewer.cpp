@@ -64,6 +64,8 @@ bool Viewer::key(const KeyEvent& event, Time now) {
   return true;
 }
 
+void Viewer::hold_space(bool held) { state_->hand.set_space(held); }
+
 protocol::Result<void> Viewer::command(const PanelCommand& command, Time now) {
   state_->now = now;
   auto done = std::visit([&](const auto& what) { return state_->run(what); }, command);

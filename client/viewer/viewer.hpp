@@ -54,6 +54,8 @@ class Viewer {
   void wheel(const WheelEvent& event, Time now);
   /// A key went down while no text field had it. False when it means nothing here.
   bool key(const KeyEvent& event, Time now);
+  /// Space was pressed (true) or released: a drag that begins while it is held moves the map.
+  void hold_space(bool held);
   /// Fails with what the panel is to say: a field and its bound.
   [[nodiscard]] protocol::Result<void> command(const PanelCommand& command, Time now);
   void tick(Time now);

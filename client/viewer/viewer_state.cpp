@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "client/viewer/label_maker.hpp"
 #include "client/viewer/picture_maker.hpp"
 
 namespace earthwork::viewer {

@@ -311,6 +311,19 @@ TEST(Viewer, PaintsAsTheDragGoes) {
   EXPECT_GT(server.last("edit")["stroke"], stroke);
 }
 
+TEST(Viewer, ADragWithSpaceHeldMovesTheMapAndPaintsNothing) {
+  AtZero server;
+  server.viewer->hold_space(true);
+  server.press(400, 300);
+  server.drag(500, 300);
+  server.release(500, 300);
+  EXPECT_EQ(server.count("edit"), 0u);
+  EXPECT_NEAR(place(server).target.x, -10, 1e-6);
+  server.viewer->hold_space(false);
+  server.press(400, 300);
+  EXPECT_EQ(server.count("edit"), 1u);
+}
+
 TEST(Viewer, EscapeEndsAStroke) {
   AtZero server;
   server.press(400, 300);

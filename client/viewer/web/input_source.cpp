@@ -3,6 +3,8 @@
 #include <emscripten.h>
 #include <emscripten/html5.h>
 
+#include <string_view>
+
 #include "client/viewer/web/browser.hpp"
 #include "client/viewer/web/canvas.hpp"
 #include "client/viewer/web/page_input.hpp"
@@ -34,9 +36,18 @@ EM_BOOL on_wheel(int, const EmscriptenWheelEvent* event, void* user) {
 
 EM_BOOL on_key(int, const EmscriptenKeyboardEvent* event, void* user) {
   if (page_keeps(static_cast<Focus>(browser_focus(kCanvas)), event->key)) return EM_FALSE;
+  if (std::string_view(event->key) == " ") {
+    listener_of(user).space_held(true);
+    return EM_TRUE;  // the page would scroll
+  }
   const bool meant = listener_of(user).key_pressed(
       {.key = event->key, .modifiers = modifiers_of(*event), .repeat = event->repeat != 0});
   return meant ? EM_TRUE : EM_FALSE;
+}
+
+EM_BOOL on_key_up(int, const EmscriptenKeyboardEvent* event, void* user) {
+  if (std::string_view(event->key) == " ") listener_of(user).space_held(false);
+  return EM_FALSE;
 }
 
 }  // namespace
@@ -45,6 +56,7 @@ void listen_to_input(InputListener& listener) {
   browser_listen_to_pointers(kCanvas, &listener);
   emscripten_set_wheel_callback(kCanvas, &listener, EM_FALSE, on_wheel);
   emscripten_set_keydown_callback(EMSCRIPTEN_EVENT_TARGET_WINDOW, &listener, EM_FALSE, on_key);
+  emscripten_set_keyup_callback(EMSCRIPTEN_EVENT_TARGET_WINDOW, &listener, EM_FALSE, on_key_up);
 }
 
 }  // namespace earthwork::viewer

@@ -13,6 +13,8 @@ class InputListener {
   virtual void wheeled(const WheelEvent& event) = 0;
   /// True when the key meant something, so that the page does nothing with it.
   virtual bool key_pressed(const KeyEvent& event) = 0;
+  /// Space went down, where nothing else has a use for it, or up.
+  virtual void space_held(bool held) = 0;
 
  protected:
   ~InputListener() = default;

@@ -161,6 +161,8 @@ void Page::wheeled(const WheelEvent& event) {
   show_panels();
 }
 
+void Page::space_held(bool held) { viewer_->hold_space(held); }
+
 bool Page::key_pressed(const KeyEvent& event) {
   const bool meant = viewer_->key(event, now());
   show_panels();

@@ -54,6 +54,7 @@ class Page final : Shell, SocketListener, CanvasListener, InputListener {
   void pointed(const PointerEvent& event, bool last) override;
   void wheeled(const WheelEvent& event) override;
   bool key_pressed(const KeyEvent& event) override;
+  void space_held(bool held) override;
 
   void wake();
   void show_panels();
