@@ -68,7 +68,11 @@ TEST_F(ChatFeedTest, ALineIsTheNewsOfTheNextAdvance) {
   EXPECT_EQ(feed.news_for(2), nullptr);
   feed.advance();
   EXPECT_FALSE(feed.changed());
-  EXPECT_NE(feed.news_for(1), nullptr);
+  feed.add({.time_ms = 1, .session = {}, .name = "a", .color = {}, .text = "c"});
+  const SharedText text = feed.news_for(1);
+  ASSERT_TRUE(text);
+  EXPECT_NE(text->find("\"n\":1,"), std::string::npos);
+  EXPECT_EQ(text->find("\"n\":2,"), std::string::npos);
 }
 
 TEST_F(ChatFeedTest, GoesOnInALogThatItFinds) {
@@ -134,6 +138,14 @@ TEST_F(ChatFeedTest, ListenersAtManyPlacesAreEachToldTheirs) {
       EXPECT_EQ(heard.back(), 60u);
     }
   }
+}
+
+TEST_F(ChatFeedTest, WhoComesInIsToldTheSameTextHoweverManyReadSlowly) {
+  for (ViewerId id = 1; id <= 30; ++id) feed.enter(id), say(), (void)feed.news_for(id);
+  feed.enter(100), feed.enter(101);
+  const SharedText first = feed.news_for(100);
+  for (ViewerId id = 1; id < 30; ++id) (void)feed.news_for(id);
+  EXPECT_EQ(feed.news_for(101), first);
 }
 
 TEST_F(ChatFeedTest, LinesThatOtherMapsTookThePlaceOfAreNotTold) {
