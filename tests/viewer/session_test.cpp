@@ -17,6 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 using protocol::Code;
+using protocol::MapPoint;
 using State = ConnectionPart::State;
 
 ConnectionPart connection(PlayedServer& server) {
@@ -358,6 +359,79 @@ RC_GTEST_PROP(Session, MakesEachEditExactlyOnceOverAnyCuts, ()) {
   RC_ASSERT(wire.ledger.applied() == painted);
   server.pass(1s);
   RC_ASSERT(server.viewer->panels(server.now).status->unanswered == 0u);
+}
+
+/// Something that a server might say at any time, sense or nonsense.
+std::string any_text() {
+  const auto n = *rc::gen::inRange<std::uint32_t>(0, 4);
+  protocol::MapSettings settings = layered(*rc::gen::inRange<std::size_t>(1, 17));
+  settings.layers[0].top = n;
+  const std::string session = *rc::gen::element(kMe, kAnn, kBob);
+  const protocol::Failure why{Code::internal, "because", {}};
+  switch (*rc::gen::inRange(0, 10)) {
+    case 0:
+      return protocol::write(protocol::CaughtUp{.n = n, .seq = n});
+    case 1:
+      return protocol::write(protocol::SettingsChanged{.seq = n, .settings = settings});
+    case 2:
+      return protocol::write(protocol::Applied{.id = n + 1, .seq = n});
+    case 3:
+      return protocol::write(protocol::Rejected{.id = kPingId - n, .failure = why});
+    case 4:
+      return protocol::write(protocol::Presence{
+          .all = n == 0,
+          .users = {user(session, "x")},
+          .left = {},
+          .cursors = {{session, MapPoint{1e300, static_cast<double>(n)}, {}, {}}}});
+    case 5:
+      return protocol::write(protocol::Welcome{.session = session, .key = kKey, .id = {}});
+    case 6:
+      return protocol::write(protocol::Joined{.map = "demo",
+                                              .settings = settings,
+                                              .epoch = n == 0 ? kEpoch : kOtherEpoch,
+                                              .seq = n,
+                                              .users = {},
+                                              .id = {}});
+    case 7:
+      return protocol::write(protocol::Done{.id = kPingId});
+    case 8:
+      return protocol::write(bye(Code::internal));
+    default:
+      return *rc::gen::arbitrary<std::string>();
+  }
+}
+
+RC_GTEST_PROP(Session, SurvivesWhateverAServerSays, ()) {
+  PlayedServer server;
+  if (*rc::gen::inRange(0, 4) != 0) server.join(layered(2));
+  for (int i = *rc::gen::inRange(0, 40); i > 0; --i) {
+    switch (*rc::gen::inRange(0, 6)) {
+      case 0:
+        server.viewer->connected(server.now);
+        break;
+      case 1:
+        server.binary(protocol::encode(protocol::GroupBegin{0xaa, 1, 1}) +
+                      *rc::gen::arbitrary<std::string>());
+        break;
+      case 2:
+        stamp(server, 400, 300);
+        break;
+      case 3:
+        server.pass(std::chrono::milliseconds(*rc::gen::inRange(0, 40'000)));
+        break;
+      default:
+        server.viewer->text(any_text(), server.now);
+    }
+    server.frame();
+    static_cast<void>(server.viewer->panels(server.now));
+    static_cast<void>(server.viewer->labels());
+  }
+  // And it comes back to a server that is one.
+  server.cut();
+  if (server.viewer->command(RetryNow{}, server.now))
+    server.join(bounded(), "00000000000000cc", 50);
+  server.show({{0, 0, 0, 0}});
+  RC_ASSERT(server.viewer->scene().chunks().size() == 1u);
 }
 
 }  // namespace
