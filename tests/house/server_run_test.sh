@@ -39,6 +39,10 @@ case $(get /api/maps/demo) in
   "HTTP/1.1 200 "*'"name":"demo"'*) ;;
   *) fail "it does not serve the map demo" ;;
 esac
+case $(get /) in
+  "HTTP/1.1 200 "*"<canvas"*) ;;
+  *) fail "it does not serve the page" ;;
+esac
 
 [ -s earthwork-data/demo.earthwork ] || fail "it keeps no map in the folder it was started in"
 

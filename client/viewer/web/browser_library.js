@@ -1,8 +1,8 @@
 // What the viewer asks of the browser beyond emscripten's own html5.h, as functions for C++: linked
 // into viewer.js by --js-library. browser.hpp says what each does.
 //
-// Pointers come by listeners of our own: html5.h knows no pointer events, and so no pens, no capture
-// of a drag, and not the points between two pictures.
+// Pointers come by listeners of our own: html5.h knows no pointer events, and so no pens, no
+// capture of a drag, and not the points between two pictures.
 mergeInto(LibraryManager["library"], {
   // An exception must not pass through WebAssembly: its stack would stay as it was then.
   browser_call_hook: function (name, json) {
