@@ -16,7 +16,7 @@
 
 namespace earthwork::net {
 
-inline constexpr std::size_t kMaxPageFiles = 64;                     ///< NAME and NAME.gz are two.
+inline constexpr std::size_t kMaxPageFiles = 128;                    ///< NAME and NAME.gz are two.
 inline constexpr std::size_t kMaxPageBytes = std::size_t{16} << 20;  ///< Of all files together.
 
 /// Any thread.

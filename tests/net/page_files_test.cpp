@@ -214,11 +214,11 @@ TEST_F(PageFilesTest, AGzipFileIsThatOfItsFile) {
   }
 }
 
-TEST_F(PageFilesTest, TakesSixtyFourFilesAndNotOneMore) {
-  for (int i = 2; i < 64; ++i) folder.put("f" + std::to_string(i), "x");
+TEST_F(PageFilesTest, TakesAHundredAndTwentyEightFilesAndNotOneMore) {
+  for (int i = 2; i < 128; ++i) folder.put("f" + std::to_string(i), "x");
   EXPECT_TRUE(PageFiles::read(folder.path()));
   folder.put("one_more", "x");
-  refused(Code::too_large, "has more than 64 files");
+  refused(Code::too_large, "has more than 128 files");
 }
 
 TEST_F(PageFilesTest, TakesSixteenMebibytesAndNotAByteMore) {
