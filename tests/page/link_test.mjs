@@ -1,7 +1,8 @@
 // Links and figures in words, without a browser.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { hashOf, isMapName, mapOf, placeOf, queryOf } from '../../client/viewer/web/page/link.mjs';
+import { asksForNoName, hashOf, isMapName, mapOf, placeOf, queryOf }
+  from '../../client/viewer/web/page/link.mjs';
 import { bytes, characters, inkOn, milliseconds, whole }
   from '../../client/viewer/web/page/words.mjs';
 
@@ -32,6 +33,8 @@ test('a query names a map, or what can be none', () => {
   for (const none of ['', '?map=', '?map=Caps', '?map=a/b', `?map=${'x'.repeat(65)}`, '?other=a'])
     assert.equal(mapOf(none), null, none);
   assert.ok(isMapName('x'.repeat(64)));
+  assert.ok(asksForNoName('?map=Caps'));
+  for (const fine of ['', '?map=', '?map=demo', '?other=a']) assert.ok(!asksForNoName(fine), fine);
 });
 
 test('figures are short', () => {

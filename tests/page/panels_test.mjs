@@ -75,9 +75,10 @@ test('layers are chosen, hidden, added and changed', async (t) => {
   await page.locator('#layer-fields-1').getByLabel('Surface at').fill('2.5');
   await page.keyboard.press('Tab');
   assert.deepEqual(await commands(page), [
-    { do: 'layer' }, { do: 'brush', layer: 1 }, { do: 'show', layer: 0, visible: false },
-    { do: 'show', layer: 0, visible: true }, { do: 'layer', layer: 1, color: '#112233' },
-    { do: 'layer', layer: 1, name: 'water' }, { do: 'layer', layer: 1, wall: [-1, 2.5] }]);
+    { do: 'layer', color: '#b08d57', wall: [0, 1] }, { do: 'brush', layer: 1 },
+    { do: 'show', layer: 0, visible: false }, { do: 'show', layer: 0, visible: true },
+    { do: 'layer', layer: 1, color: '#112233' }, { do: 'layer', layer: 1, name: 'water' },
+    { do: 'layer', layer: 1, wall: [0, 2.5] }]);
   assert.ok(await page.getByRole('radio', { name: 'water' }).isChecked());
 
   await refuse(page, { field: 'wall', message: 'wall: the bottom is not below the top' });
@@ -126,6 +127,20 @@ test('new lines of the chat are announced and counted while it is folded', async
   assert.ok(await page.locator('#chat-unread').isHidden());
   assert.deepEqual(await page.locator('#chat-lines p').allTextContents(), ['earlier', 'hello', 'mine']);
   assert.equal(await page.locator('#chat-lines .mine').count(), 1);
+});
+
+test('what was said before one came is not announced, and a new server counts anew', async (t) => {
+  const page = await open(t);
+  const list = page.locator('#chat-lines');
+  await page.getByRole('button', { name: 'Chat' }).click();
+  await tell(page, { chat: { lines: [], known: false } });
+  await tell(page, { chat: { lines: [said(1, 'one'), said(2, 'two')], known: false } });
+  await tell(page, { chat: { lines: [said(1, 'one'), said(2, 'two')], known: true } });
+  assert.equal(await list.getAttribute('aria-live'), 'off');
+  assert.ok(await page.locator('#chat-unread').isHidden());
+  const later = (n, text) => said(n, text, { time: 1_800_000_000_000 + n });
+  await tell(page, { chat: { lines: [later(1, 'a'), later(2, 'b'), later(3, 'c')], known: true } });
+  assert.deepEqual(await list.locator('p').allTextContents(), ['a', 'b', 'c']);
 });
 
 test('a line of the chat has at most 500 characters, counted near the end', async (t) => {
@@ -177,6 +192,13 @@ test('a map is made with its settings, and opened', async (t) => {
   assert.deepEqual(await commands(page),
     [{ do: 'join', map: 'demo' }, { do: 'camera', x: 0, y: 0, zoom: 16 }]);
   server.maps.delete('moor');
+
+  // The next one starts as the first did.
+  await page.getByRole('button', { name: /^Map:/ }).click();
+  await page.getByText('New map').click();
+  assert.equal(await form.getByLabel('Name of layer 1').inputValue(), 'ground');
+  assert.equal(await form.getByLabel('Layer 1: wall down to').inputValue(), '-1');
+  assert.equal(await form.getByLabel('Name of layer 2').count(), 0);
 });
 
 test('a map is deleted once its name was typed', async (t) => {
@@ -220,6 +242,31 @@ test('without a map in the link it is demo, else the first, else the dialog', as
   await page.goto(server.url);
   await page.getByText('There is no map yet').waitFor();
   for (const name of before) server.maps.add(name);
+});
+
+test('a link with what can be no name says which map is open instead', async (t) => {
+  const page = await open(t, { link: '/?map=Demo' });
+  assert.equal((await options(page)).map, 'demo');
+  await page.getByText(/name in the link: this is demo/).first().waitFor();
+});
+
+test('the browser asks before edits are lost with the page', async (t) => {
+  const page = await open(t);
+  const asked = [];
+  page.on('dialog', async (dialog) => {
+    asked.push(dialog.type());
+    await dialog.accept();
+  });
+  const figures = { seq: 7, fps: 0, bytes: 0, chunks: 1, triangles: 2, caught_up: true };
+  await page.getByRole('radio', { name: 'Empty' }).check();
+  await tell(page, { status: { ...figures, unanswered: 0 } });
+  await page.reload();
+  assert.deepEqual(asked, []);
+  await page.waitForFunction(() => window.fake?.options);
+  await page.getByRole('radio', { name: 'Empty' }).check();
+  await tell(page, { status: { ...figures, unanswered: 2 } });
+  await page.reload();
+  assert.deepEqual(asked, ['beforeunload']);
 });
 
 test('name and colour are remembered, the key by the tab alone', async (t) => {

@@ -2,6 +2,7 @@
 // and how high they stand.
 import { byId, icon, iconButton, make, nameButton, setIcon, setText, setValue, showError }
   from './dom.mjs';
+import { newLayer } from './new_layer.mjs';
 
 export function layersPanel(viewer) {
   const list = byId('layer-list');
@@ -10,7 +11,8 @@ export function layersPanel(viewer) {
   const rows = [];
 
   add.addEventListener('click', () => {
-    showError(error, viewer.command({ do: 'layer' })?.message);
+    const layers = viewer.part('map')?.settings.layers ?? [];
+    showError(error, viewer.command({ do: 'layer', ...newLayer(layers) })?.message);
   });
 
   function show() {

@@ -11,6 +11,10 @@ export function mapOf(query) {
   return name !== null && isMapName(name) ? name : null;
 }
 
+// Whether a query asks for a map by what can be no name.
+export const asksForNoName = (query) =>
+  Boolean(new URLSearchParams(query).get('map')) && mapOf(query) === null;
+
 export const queryOf = (map) => `?map=${map}`;
 
 // The place that a fragment names; null where it is none.

@@ -10,7 +10,8 @@ import { helpDialog } from './help.mjs';
 import { lastId, person, seed, takeKey } from './identity.mjs';
 import { labelsOverlay } from './labels.mjs';
 import { layersPanel } from './layers.mjs';
-import { hashOf, mapOf, placeOf, queryOf } from './link.mjs';
+import { asksForNoName, hashOf, mapOf, placeOf, queryOf } from './link.mjs';
+import { toast } from './live.mjs';
 import { mapsDialog } from './maps.mjs';
 import { noticesPanel } from './notices.mjs';
 import { foldingPanels } from './panels.mjs';
@@ -126,6 +127,9 @@ viewer.onStop(() => fail('The viewer met an error and has stopped. What was ackn
 keepLink();
 const name = mapOf(location.search) ?? await firstMap();
 if (name) {
+  // Nobody shall paint on one map and believe it is another.
+  if (asksForNoName(location.search))
+    toast(`No map can have the name in the link: this is ${name}.`, 'lost');
   await start(name, placeOf(location.hash));
 } else {
   byId('progress').hidden = true;

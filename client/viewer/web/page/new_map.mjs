@@ -2,10 +2,10 @@
 import { createMap } from './api.mjs';
 import { byId, iconButton, make, setText, showError } from './dom.mjs';
 import { isMapName } from './link.mjs';
+import { newLayer } from './new_layer.mjs';
 import { whole } from './words.mjs';
 
 const MOST_LAYERS = 16;
-const COLORS = ['#8a9a5b', '#b08d57', '#5b8a9a', '#9a5b6e', '#7d6bb0', '#c2a84e'];
 
 // `made(name)` is called with the map that was created.
 export function newMapForm(made) {
@@ -15,7 +15,7 @@ export function newMapForm(made) {
   const list = byId('new-map-layers');
 
   function addLayer() {
-    const row = layerRow(list.children.length);
+    const row = layerRow(list.children.length + 1, newLayer(layersOf(list)));
     list.append(row);
     count();
     return row;
@@ -60,6 +60,9 @@ export function newMapForm(made) {
     try {
       await createMap(name, settingsOf(fields, list));
       form.reset();
+      // A reset would leave them empty: they are no part of the document as it came.
+      list.replaceChildren();
+      addLayer();
       describeSize();
       byId('new-map').open = false;
       made(name);
@@ -78,19 +81,24 @@ function fieldOf(fields, field = '') {
   return names[last] ? fields[names[last]] : null;
 }
 
-function layerRow(index) {
+function layerRow(n, { color, wall: [bottom, top] }) {
   const number = (name, value, label) =>
     make('input', { type: 'number', step: 'any', name, value, 'aria-label': label, title: label });
-  const n = index + 1;
   return make('li', {},
-    make('input', { type: 'color', name: 'layer_color', value: COLORS[index % COLORS.length],
+    make('input', { type: 'color', name: 'layer_color', value: color,
       'aria-label': `Colour of layer ${n}` }),
-    make('input', { name: 'layer_name', value: index === 0 ? 'ground' : `layer ${n}`,
+    make('input', { name: 'layer_name', value: n === 1 ? 'ground' : `layer ${n}`,
       autocomplete: 'off', 'aria-label': `Name of layer ${n}` }),
-    number('layer_bottom', String(index - 1), `Layer ${n}: wall down to`),
-    number('layer_top', String(index), `Layer ${n}: surface at`),
+    number('layer_bottom', String(bottom), `Layer ${n}: wall down to`),
+    number('layer_top', String(top), `Layer ${n}: surface at`),
     iconButton('close', `Remove layer ${n}`, () => {}));
 }
+
+const layersOf = (list) => [...list.children].map((row) => {
+  const value = (name) => row.querySelector(`[name=${name}]`).value;
+  return { name: value('layer_name'), color: value('layer_color'),
+    wall: [Number(value('layer_bottom')), Number(value('layer_top'))] };
+});
 
 // Around the middle, so that 0, 0 is where one looks first.
 function settingsOf(fields, list) {
@@ -99,11 +107,7 @@ function settingsOf(fields, list) {
   const settings = {
     chunk_resolution: Number(fields.resolution.value),
     voxel_size: Number(fields.voxel_size.value),
-    layers: [...list.children].map((row) => {
-      const value = (name) => row.querySelector(`[name=${name}]`).value;
-      return { name: value('layer_name'), color: value('layer_color'),
-        wall: [Number(value('layer_bottom')), Number(value('layer_top'))] };
-    }),
+    layers: layersOf(list),
   };
   if (fields.bounds.value === 'chunks')
     settings.chunks = [left, bottom, left + columns, bottom + rows];

@@ -20,6 +20,10 @@ export function statusLine(viewer) {
       : `${whole(kept)} ${kept === 1 ? 'edit waits' : 'edits wait'} for the server`);
   }
   viewer.on('connection', wait);
+  // With the page goes what the server did not answer yet: the browser asks first.
+  addEventListener('beforeunload', (event) => {
+    if (viewer.part('status')?.unanswered > 0) event.preventDefault();
+  });
   viewer.on('status', (part) => {
     setText(byId('figure-latency'),
       part.latency_ms === undefined ? NONE : milliseconds(part.latency_ms));
