@@ -1,10 +1,23 @@
 #include "client/viewer/chat_log.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "protocol/limits.hpp"
 
 namespace earthwork::viewer {
+
+void ChatLog::join(std::string session) {
+  fresh_ = true;
+  if (std::find(mine_.begin(), mine_.end(), session) != mine_.end()) return;
+  mine_.push_back(std::move(session));
+  if (mine_.size() > kKeptSessions) mine_.pop_front();
+}
+
+void ChatLog::clear() {
+  lines_.clear();
+  known_ = false;
+}
 
 void ChatLog::take(const protocol::ChatLines& said) {
   if (said.lines.empty()) return;
@@ -15,8 +28,11 @@ void ChatLog::take(const protocol::ChatLines& said) {
   lines_.erase(lines_.begin(), lines_.begin() + surplus);
 }
 
-ChatPart ChatLog::part(std::string session) const {
-  return {.lines = lines_, .session = std::move(session)};
+ChatPart ChatLog::part() const {
+  ChatPart part{.lines = lines_, .mine = {}, .known = known_};
+  for (const protocol::ChatLine& line : lines_)
+    part.mine.push_back(std::find(mine_.begin(), mine_.end(), line.session) != mine_.end());
+  return part;
 }
 
 }  // namespace earthwork::viewer

@@ -24,8 +24,10 @@ class Painter {
   /// As Session::edit.
   using Keep = std::function<protocol::Result<protocol::MessageId>(const protocol::Edit&)>;
 
-  /// `notices` outlives it.
-  Painter(Keep keep, Notices& notices) : keep_(std::move(keep)), notices_(notices) {}
+  /// The first stroke gets a number above `last_number`: none that the same author has used, or the
+  /// server would take the first stroke for more of that one. `notices` outlives it.
+  Painter(Keep keep, Notices& notices, std::int64_t last_number)
+      : keep_(std::move(keep)), notices_(notices), next_number_(last_number + 1) {}
 
   /// A stroke begins, with a stamp that goes out at once; one that was going on has ended.
   void begin(const scene::BrushSettings& brush, const protocol::MapSettings& settings,
@@ -48,7 +50,7 @@ class Painter {
   Keep keep_;
   Notices& notices_;
   std::optional<scene::Stroke> stroke_;
-  std::int64_t next_number_ = 1;
+  std::int64_t next_number_;
   bool told_full_ = false;                                  // in this stroke
   std::map<protocol::MessageId, protocol::MapPoint> ends_;  // where each unanswered edit ends
 };

@@ -50,14 +50,16 @@ ordered_json part(const PeoplePart& people) {
 
 ordered_json part(const ChatPart& chat) {
   auto lines = ordered_json::array();
-  for (const auto& line : chat.lines)
+  for (std::size_t i = 0; i < chat.lines.size(); ++i) {
+    const protocol::ChatLine& line = chat.lines[i];
     lines.push_back({{"n", line.n},
                      {"time", line.time_ms},
                      {"name", line.name},
                      {"color", line.color},
                      {"text", line.text},
-                     {"mine", line.session == chat.session}});
-  return {{"lines", std::move(lines)}};
+                     {"mine", bool(chat.mine.at(i))}});
+  }
+  return {{"lines", std::move(lines)}, {"known", chat.known}};
 }
 
 ordered_json part(const StatusPart& status) {

@@ -57,10 +57,11 @@ struct PeoplePart {
   friend bool operator==(const PeoplePart&, const PeoplePart&) = default;
 };
 
-/// "chat": {"lines": [{"n", "time", "name", "color", "text", "mine"}]}: the last 100.
+/// "chat": {"lines": [{"n", "time", "name", "color", "text", "mine"}], "known"}: the last 100.
 struct ChatPart {
   std::vector<protocol::ChatLine> lines;
-  std::string session;  ///< One's own, for "mine".
+  std::vector<bool> mine;  ///< Of each: one said it oneself.
+  bool known = false;      ///< What was said before one came is there; what follows is new.
   friend bool operator==(const ChatPart&, const ChatPart&) = default;
 };
 

@@ -14,7 +14,7 @@ void Viewer::State::joined(const protocol::Joined& joined, link::Joining how) {
   if (std::exchange(broken, false)) meshes = scene::Scene();
   meshes.join(protocol::parse_hex(joined.epoch).value_or(0), joined.seq);
   people.join(joined.users, session.id());
-  chat.join();
+  chat.join(session.id());
   teller.forget();
   people_stale = dirty = true;
   // The same view as before is said again by the session.
@@ -89,6 +89,7 @@ void Viewer::State::take(const protocol::SettingsChanged& changed) {
 void Viewer::State::take(const protocol::CaughtUp& caught_up) {
   meshes.catch_up(caught_up.n, caught_up.seq);
   if (caught_up.n != asker.last()) return;
+  if (chat.caught_up()) chat_stale = true;
   pilot.caught_up(*settings, meshes.chunks());
   const protocol::MapRect known = asker.rect(), seen = pilot.wanted(*settings);
   if (known.x0 <= seen.x0 && known.y0 <= seen.y0 && seen.x1 <= known.x1 && seen.y1 <= known.y1)
@@ -121,7 +122,8 @@ bool Viewer::State::ask_view() {
   return true;
 }
 
-/// Tells the others where one points, if it is time to.
+/// Tells the others where one points, if it is time to. Who follows somebody sees what they see:
+/// told with the margin around it, it would grow without end where two follow each other.
 void Viewer::State::point() {
   std::optional<protocol::Brush> brush;
   const auto at = aim();
@@ -130,7 +132,10 @@ void Viewer::State::point() {
              .radius = held.brush.radius_voxels * settings->voxel_size,
              .fill = held.brush.fill,
              .layer = held.brush.layer};
-  const auto cursor = cursor_of(at, brush, pilot.camera().seen(0, 0), *settings);
+  const People::Person* followed = people.find(pilot.followed());
+  const protocol::MapRect view =
+      followed && followed->view ? *followed->view : pilot.camera().seen(0, 0);
+  const auto cursor = cursor_of(at, brush, view, *settings);
   if (teller.tell(cursor, now)) static_cast<void>(session.say(cursor));
 }
 

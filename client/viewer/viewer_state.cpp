@@ -21,7 +21,8 @@ Viewer::State::State(Shell& the_shell, ViewerOptions options, Time start)
                .last_id = options.last_id,
                .seed = options.seed},
               start),
-      painter([this](const protocol::Edit& edit) { return session.edit(edit); }, notices) {}
+      painter([this](const protocol::Edit& edit) { return session.edit(edit); }, notices,
+              options.last_id) {}
 
 void Viewer::State::resize(scene::ScreenSize size, double ratio) {
   if (std::exchange(pixel_ratio, ratio) != ratio) dirty = true;
@@ -138,7 +139,7 @@ PanelChanges Viewer::State::panels() {
   if (std::exchange(people_shown, pilot.followed()) != pilot.followed()) people_stale = true;
   if (std::exchange(people_stale, false))
     out.people = panels_shown.people.offer(people.part(pilot.followed()));
-  if (std::exchange(chat_stale, false)) out.chat = panels_shown.chat.offer(chat.part(session.id()));
+  if (std::exchange(chat_stale, false)) out.chat = panels_shown.chat.offer(chat.part());
   out.notices = panels_shown.notices.offer(notices.part());
   out.shortcuts = panels_shown.shortcuts.offer(shortcuts());
   if (figures_at && now - *figures_at < kPanelsEvery) return out;

@@ -77,18 +77,32 @@ TEST(ChatLog, KeepsTheLastHundredLines) {
   ChatLog chat;
   for (std::uint64_t n = 1; n <= 105; ++n)
     chat.take({{{.n = n, .time_ms = 0, .session = kAnn, .name = "Ann", .color = "", .text = "a"}}});
-  EXPECT_EQ(chat.part(kMe).lines.size(), 100u);
-  EXPECT_EQ(chat.part(kMe).lines.front().n, 6u);
+  EXPECT_EQ(chat.part().lines.size(), 100u);
+  EXPECT_EQ(chat.part().lines.front().n, 6u);
 }
 
 TEST(ChatLog, AfterAJoinBeginsWithWhatTheServerKept) {
   ChatLog chat;
   chat.take({{{.n = 1, .time_ms = 0, .session = kAnn, .name = "", .color = "", .text = "a"}}});
-  chat.join();
-  EXPECT_EQ(chat.part(kMe).lines.size(), 1u);
+  chat.join(kMe);
+  EXPECT_EQ(chat.part().lines.size(), 1u);
   chat.take({{{.n = 1, .time_ms = 0, .session = kAnn, .name = "", .color = "", .text = "a"},
               {.n = 2, .time_ms = 0, .session = kAnn, .name = "", .color = "", .text = "b"}}});
-  EXPECT_EQ(chat.part(kMe).lines.size(), 2u);
+  EXPECT_EQ(chat.part().lines.size(), 2u);
+}
+
+TEST(ChatLog, OnesOwnLinesStayOnesOwnOverConnections) {
+  ChatLog chat;
+  chat.join("00000000000000e0");
+  chat.clear();
+  chat.join(kMe);
+  chat.take(
+      {{{.n = 1, .time_ms = 0, .session = "00000000000000e0", .name = "", .color = "", .text = "a"},
+        {.n = 2, .time_ms = 0, .session = kAnn, .name = "", .color = "", .text = "b"},
+        {.n = 3, .time_ms = 0, .session = kMe, .name = "", .color = "", .text = "c"}}});
+  EXPECT_EQ(chat.part().mine, (std::vector<bool>{true, false, true}));
+  for (std::uint64_t i = 0; i < kKeptSessions; ++i) chat.join(protocol::hex(i));
+  EXPECT_EQ(chat.part().mine, (std::vector<bool>{false, false, false}));
 }
 
 TEST(Notices, KeepTwentyAndShowThemForAWhile) {

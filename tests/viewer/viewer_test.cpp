@@ -403,6 +403,15 @@ TEST(Viewer, FollowsSomebodyUntilItMovesItself) {
   EXPECT_EQ(refused(server, Follow{kMe}).field, "session");
 }
 
+TEST(Viewer, TellsTheViewOfWhomItFollows) {
+  AtZero server;
+  arrive(server, kAnn, "Ann");
+  point(server, kAnn, std::nullopt, std::nullopt, {100, 100, 164, 140});
+  run(server, Follow{kAnn});
+  server.pass(1s);
+  EXPECT_EQ(server.last("cursor")["view"], json::parse("[100.0,100.0,164.0,140.0]"));
+}
+
 TEST(Viewer, FollowsNobodyWhoHasLeft) {
   AtZero server;
   arrive(server, kAnn, "Ann");
@@ -458,6 +467,9 @@ TEST(Viewer, TalksAndTellsWhatWasNotSaid) {
   const protocol::MessageId id = server.last("chat")["id"];
   server.say(protocol::Rejected{.id = id, .failure = {Code::too_fast, "text: 8 in 10 s", "text"}});
   EXPECT_EQ(notices(server).at(0).words, "Not said: text: 8 in 10 s");
+  EXPECT_EQ(server.viewer->panels(server.now).chat, std::nullopt);
+  server.catch_up();
+  EXPECT_TRUE(server.viewer->panels(server.now).chat->known);
   server.cut();
   EXPECT_EQ(refused(server, Say{"hello?"}).field, "text");
 }

@@ -20,7 +20,7 @@ export function chatPanel(viewer, isOpen) {
       badge.replaceChildren(String(unread), make('span', { className: 'unseen' }, ' unread'));
     }
   }
-  viewer.on('chat', (part) => count(lines.show(part.lines)));
+  viewer.on('chat', (part) => count(lines.show(part)));
 
   text.addEventListener('input', () => {
     const length = characters(text.value);
@@ -49,23 +49,26 @@ export function chatPanel(viewer, isOpen) {
 
 // Lines are added to those that are there, so that only new ones are read aloud.
 function chatLines(list) {
-  let last = null;
+  let [shown, wasKnown] = [[], false];
   const toEnd = () => { list.scrollTop = list.scrollHeight; };
 
   return {
     toEnd,
     // Returns how many new lines others have said since the last time.
-    show(lines) {
-      const again = last === null || (lines.at(-1)?.n ?? 0) < last;
+    show({ lines, known = true }) {
+      // A server that was started anew counts from 1 again, so a number alone says nothing.
+      const last = shown.at(-1);
+      const at = last ? lines.findIndex(({ n, time }) => n === last.n && time === last.time) : -1;
       // What was said before one came is there to be read, but not announced.
+      const again = !wasKnown || (last && at < 0);
       list.setAttribute('aria-live', again ? 'off' : 'polite');
       if (again) list.replaceChildren();
-      const fresh = again ? lines : lines.filter((line) => line.n > last);
+      const fresh = again ? lines : lines.slice(at + 1);
       const atEnd = again || list.scrollHeight - list.scrollTop - list.clientHeight < 40;
       list.append(...fresh.map(chatLine));
       while (list.children.length > KEPT_LINES) list.firstChild.remove();
       if (atEnd || fresh.some((line) => line.mine)) toEnd();
-      last = lines.at(-1)?.n ?? 0;
+      [shown, wasKnown] = [lines, known];
       return again ? 0 : fresh.filter((line) => !line.mine).length;
     },
   };
