@@ -94,9 +94,12 @@ void Keyframer::durable() {
   go_on();
 }
 
+// A start refuses chunks of a layer that its keyframe does not have.
 void Keyframer::taken_back() {
   accepted_ = handed_over_ = durable_;
   if (attempt_ && !attempt_->durable) drop();
+  const int layers = subject_.map.grid().layers;
+  std::erase_if(changed_, [&](const auto& chunk) { return chunk.first.layer >= layers; });
 }
 
 // The map is what it is as of `handed_over_`. A chunk that was changed last by an event that was

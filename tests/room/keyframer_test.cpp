@@ -92,21 +92,29 @@ struct Workshop {
       : clerk(std::make_unique<WatchedJournal>(std::move(journal), record)),
         start(journal::restore(clerk.journal(), {}, journal::Trust::strict).value()),
         map(start.map),
-        keyframer({map, start.settings, [this](std::uint64_t author) { return authors[author]; },
-                   clerk, back_at_once, *clock, meters},
+        settings(start.settings),
+        keyframer({map, settings, [this](std::uint64_t author) { return authors[author]; }, clerk,
+                   back_at_once, *clock, meters},
                   start, pace) {
     for (const AuthorState& author : start.authors) authors[author.author] = author;
     seq = start.seq;
   }
 
   void edit(const protocol::Edit& edit, std::uint64_t author = 0xA) {
-    before.keep(map, 0, history::stencils(edit));
-    const voxel::Change& change = history::apply(map, edit);
+    before.keep(map, static_cast<int>(edit.layer), history::stencils(edit));
+    accept(edit, author);
+  }
+  void change_layers(const protocol::LayerChange& change) {
+    protocol::apply(change, settings);
+    accept(change, 0xA);
+  }
+  void accept(const protocol::Action& action, std::uint64_t author) {
+    const voxel::Change& change = history::apply(map, action);
     const history::Event event{.seq = ++seq,
                                .time_ms = 5,
                                .author = author,
                                .id = static_cast<std::int64_t>(seq),
-                               .action = edit,
+                               .action = action,
                                .hash = map.hash()};
     AuthorState& state = authors[author];
     state.author = author;
@@ -119,10 +127,12 @@ struct Workshop {
   /// The append of what has gathered is on its way.
   void hand_over() {
     batch = std::exchange(gathered, {});
+    batch_settings = settings;
     before.hand_over();
     keyframer.handed_over();
   }
   void succeed() {
+    stored = batch_settings;
     if (!batch.empty()) RC_ASSERT(clerk.journal().append(batch.front().seq - 1, batch).has_value());
     batch.clear();
     before.forget_handed_over();
@@ -130,6 +140,8 @@ struct Workshop {
   }
   void fail() {
     before.take_back(map);
+    settings = stored;
+    map.set_layers(static_cast<int>(settings.layers.size()));
     seq = clerk.journal().last_seq();
     for (auto& [author, state] : authors)
       std::erase_if(state.applied, [&](const auto& applied) { return applied.seq > seq; });
@@ -144,6 +156,7 @@ struct Workshop {
   bool restores() {
     const auto again = journal::restore(clerk.journal(), {}, journal::Trust::strict);
     if (!again || again->seq != seq || again->hash != map.hash()) return false;
+    if (again->settings != settings) return false;
     std::vector<AuthorState> all;
     for (const auto& [author, state] : authors)
       if (!state.applied.empty()) all.push_back(state);
@@ -157,6 +170,7 @@ struct Workshop {
   std::shared_ptr<Meters> meters = std::make_shared<Meters>();
   journal::Restored start;
   voxel::Map map;
+  protocol::MapSettings settings, batch_settings = settings, stored = settings;
   BeforeImages before;
   std::map<std::uint64_t, AuthorState> authors;
   std::uint64_t seq = 0;
@@ -233,6 +247,44 @@ TEST(Keyframer, IsAsOfItsSeqHoweverTheMapGoesOn) {
   EXPECT_EQ(w.record.keyframes[0].map_hash, hash);
   EXPECT_EQ(journal::restore(w.clerk.journal(), kKeyframeEvents, journal::Trust::strict)->hash,
             hash);
+  EXPECT_TRUE(w.restores());
+}
+
+TEST(Keyframer, HasTheSettingsOfItsSeqHoweverLayersGoOn) {
+  Workshop w;
+  w.change_layers({.layer = {}, .name = "roof", .color = {}, .wall = {}});
+  protocol::Edit on_it = journal::disc(10, 20, 9);
+  on_it.layer = 1;
+  w.edit(on_it);
+  w.edits(kKeyframeEvents - 2);
+  const protocol::MapSettings then = w.settings;
+  w.hand_over();
+  w.change_layers({.layer = {}, .name = "spire", .color = {}, .wall = {}});
+  w.succeed();
+  w.clerk.run();
+  ASSERT_EQ(w.record.keyframes.size(), 1u);
+  EXPECT_EQ(w.record.keyframes[0].settings, then);
+  w.commit();
+  w.clerk.run();
+  EXPECT_EQ(journal::restore(w.clerk.journal(), kKeyframeEvents, journal::Trust::strict)->settings,
+            then);
+  EXPECT_TRUE(w.restores());
+}
+
+TEST(Keyframer, KnowsNothingOfALayerThatWasTakenBack) {
+  Workshop w;
+  w.edit(journal::disc(0, 0, 3));
+  w.commit();
+  w.change_layers({.layer = {}, .name = "roof", .color = {}, .wall = {}});
+  protocol::Edit on_it = journal::disc(10, 20, 9);
+  on_it.layer = 1;
+  w.edit(on_it);
+  w.hand_over();
+  w.fail();
+  w.edits(kKeyframeEvents - 1);
+  w.commit();
+  w.clerk.run();
+  ASSERT_EQ(w.record.keyframes.size(), 1u);
   EXPECT_TRUE(w.restores());
 }
 
