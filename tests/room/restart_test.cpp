@@ -140,6 +140,10 @@ struct RestartTest : testing::Test {
     EXPECT_EQ(again.eyes->mesh_hash(), second->mesh_hash());
   }
 
+  /// A claim of before a layer was added is true of the others, and the map is left with its
+  /// layers.
+  void miss_a_layer(End end);
+
   Log log = journal::make_memory_journal(identity_of(kSmallChunks));
   std::unique_ptr<Session> first = std::make_unique<Session>(log), second;
   World::Guest painter, seen;
@@ -197,6 +201,35 @@ TEST_F(RestartTest, NoDeltaStartsFromWhatWasSentBefore) {
   EXPECT_TRUE(is_delta(again.eyes->parcels.back().group_records.at(0)));
   EXPECT_EQ(again.eyes->mesh_hash(), second->mesh_hash());
 }
+
+void RestartTest::miss_a_layer(End end) {
+  first->edit(painter, add_layer("roof"));
+  first->edit(painter, on_layer(1, dot(2, 2)));
+  first->edit(painter, rename_layer(0, "meadow"));
+  const protocol::MapSettings left = first->room->settings();
+  restart(end);
+  EXPECT_EQ(second->room->settings(), left);
+  const World::Guest again = back_again(seq);
+  EXPECT_EQ(sent(again).full, (std::vector<ChunkKey>{{1, 2, 2}}));
+  EXPECT_EQ(again.eyes->mesh_hash(), second->mesh_hash());
+
+  World::Guest other = second->enter("other", 99);
+  second->edit(other, on_layer(1, dot(4, 1)));
+  second->edit(other, add_layer("spire"));
+  ASSERT_EQ(other.eyes->settings_told.size(), 1u);
+  EXPECT_EQ(other.eyes->settings_told[0].seq, seq + 5);
+  EXPECT_EQ(second->room->settings().layers.size(), 3u);
+  // Sent again by who did not hear of it, it is known, and no layer more.
+  World::Guest back = second->enter("painter", painter.author);
+  back.last_message = painter.last_message - 3;
+  second->edit(back, add_layer("roof"));
+  EXPECT_EQ(back.eyes->acks, (std::vector<protocol::Applied>{{painter.last_message - 2, seq + 1}}));
+  EXPECT_EQ(second->room->settings().layers.size(), 3u);
+}
+
+TEST_F(RestartTest, LayersThatWereMissedAreThereAndWhatIsOnThem) { miss_a_layer(End::killed); }
+
+TEST_F(RestartTest, LayersAreThereAfterAKeyframeToo) { miss_a_layer(End::put_away); }
 
 TEST_F(RestartTest, NothingIsMeshedUntilSomebodyLooks) {
   restart(End::killed);
