@@ -235,6 +235,8 @@ awaitable<bool> HttpConnection::answer(HttpResponse response, bool keep_alive, b
   message.keep_alive(keep_alive);
   message.body() = {response.bytes().data(), response.bytes().size()};
   message.prepare_payload();
+  // The length of a 304 would be that of what the client has. Source: RFC 9110, 8.6.
+  if (response.status == 304) message.content_length(boost::none);
   if (!with_body) message.body() = {};
 
   // Part by part: a slow reader may take its time as long as it takes anything.

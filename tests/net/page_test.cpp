@@ -77,7 +77,22 @@ TEST_F(PageTest, HeadAndA304HaveNoBody) {
   EXPECT_EQ(same.status, 304);
   EXPECT_EQ(same.body, "");
   EXPECT_EQ(same.headers.at("etag"), head.headers.at("etag"));
+  // It would tell a cache that what it has is of no bytes.
+  EXPECT_EQ(same.headers.count("content-length"), 0u);
   EXPECT_EQ(ask("GET /", "If-None-Match: \"another\"\r\n").status, 200);
+}
+
+TEST_F(PageTest, A304LeavesTheConnectionOpen) {
+  TcpClient client(port());
+  const std::string host = " HTTP/1.1\r\nHost: " + server->address().text() + "\r\n";
+  ASSERT_TRUE(client.send("GET /" + host + "If-None-Match: *\r\n\r\nGET /" + host +
+                          "Connection: close\r\n\r\n"));
+  bool closed = false;
+  const std::string all = client.read_to_end(closed);
+  EXPECT_TRUE(closed);
+  EXPECT_TRUE(all.starts_with("HTTP/1.1 304 "));
+  EXPECT_NE(all.find("\r\n\r\nHTTP/1.1 200 "), std::string::npos);
+  EXPECT_TRUE(all.ends_with(kIndex));
 }
 
 TEST_F(PageTest, ServesManyFilesOnOneConnection) {
