@@ -9,9 +9,9 @@ server_packages=(
   libspdlog-dev libfmt-dev libcli11-dev libexpected-dev libpng-dev libsodium-dev
   prometheus-cpp-dev libsqlite3-dev
 )
-# What the page is built with beside the above; it brings node.
+# What the page is built with beside the above; emscripten brings node.
 # shellcheck disable=SC2034
-page_packages=(emscripten)
+page_packages=(emscripten zopfli)
 # llvm-19 holds the symbolizer that makes a sanitizer's stack traces readable.
 # shellcheck disable=SC2034
 test_packages=(

@@ -2,10 +2,13 @@
 //
 // Each file is named by its content (style.css becomes style.<12 hex>.css), so a server may have it
 // kept for ever; index.html alone keeps its name. References among the files are rewritten, and one
-// that leads nowhere is refused. Beside each stands NAME.gz. The same input gives the same bytes.
+// that leads nowhere is refused. Beside each stands NAME.gz, made by zopfli where it is installed.
+// The same input gives the same bytes. Modules (.mjs) become one file with all that they import, and
+// they and style sheets lose what only people read: modules.mjs says how.
 //
 // A reference is relative, and one of: src and href in HTML and SVG, url() and @import in CSS,
 // import and export ... from, import(), and new URL(..., import.meta.url) in JavaScript.
+import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { lstatSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync }
   from "node:fs";
@@ -14,8 +17,11 @@ import { argv, exit } from "node:process";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 
+import { join as joinModules, stripStyle } from "./modules.mjs";
+
 const ENTRY = "index.html";
 const HASH_DIGITS = 12;
+const LARGEST = 1 << 28; // bytes of a compressed file
 const UNKNOWN_SYSTEM = 255; // byte 9 of a gzip file, else the system it was made on
 
 const MARKUP = [/\b(?:src|href)=(["'])([^"']*)\1/g];
@@ -51,6 +57,19 @@ function read(sources) {
   return files;
 }
 
+/** The files with the modules joined and the style sheets stripped; the parts: name to whole. */
+function shorten(files) {
+  const isModule = (name) => extname(name) === ".mjs";
+  const modules = [...files].filter(([name]) => isModule(name))
+    .map(([name, bytes]) => [name, bytes.toString("utf8")]);
+  const short = new Map([...files].filter(([name]) => !isModule(name)));
+  const { joined, parts } = joinModules(new Map(modules));
+  for (const [name, text] of joined) short.set(name, Buffer.from(text));
+  for (const [name, bytes] of short)
+    if (extname(name) === ".css") short.set(name, Buffer.from(stripStyle(bytes.toString("utf8"))));
+  return { files: short, parts };
+}
+
 function hashed(name, bytes) {
   if (name === ENTRY) return name;
   const extension = extname(name);
@@ -59,7 +78,7 @@ function hashed(name, bytes) {
 }
 
 /** Name to {name, bytes}: what each file becomes. A file is named after all that it refers to. */
-function rewrite(files) {
+function rewrite({ files, parts }) {
   const done = new Map();
   const visit = (name, path) => {
     if (path.includes(name)) {
@@ -74,8 +93,11 @@ function rewrite(files) {
         text = text.replace(pattern, (all, quote, reference) => {
           if (leadsElsewhere(reference)) return all;
           const [, before, target, after] = /^((?:\.\/)?)([^#?]*)(.*)$/.exec(reference);
-          if (!files.has(target))
-            throw new Error(`${name} refers to ${reference}, which is not there`);
+          if (!files.has(target)) {
+            const whole = parts.get(target);
+            const why = whole ? `: it is a part of ${whole}` : "";
+            throw new Error(`${name} refers to ${reference}, which is not there${why}`);
+          }
           const to = visit(target, [...path, name]).name;
           return all.replace(reference, () => before + to + after);
         });
@@ -89,22 +111,30 @@ function rewrite(files) {
   return done;
 }
 
-function compress(bytes) {
-  const packed = gzipSync(bytes, { level: 9 });
+// The file as gzip: zopfli's is about a twentieth smaller than zlib's.
+function compress(path) {
+  let packed;
+  try {
+    packed = execFileSync("zopfli", ["-c", "--gzip", path],
+      { maxBuffer: LARGEST, stdio: ["ignore", "pipe", "inherit"] });
+  } catch (error) {
+    if (error.code !== "ENOENT") throw error;
+    packed = gzipSync(readFileSync(path), { level: 9 });
+  }
   packed[9] = UNKNOWN_SYSTEM;
   return packed;
 }
 
 /** Replaces the folder OUT; gives back [{name, bytes, gzipped}], in order of the names. */
 export function assemble(out, sources) {
-  const files = rewrite(read(sources));
+  const files = rewrite(shorten(read(sources)));
   const fresh = `${resolve(out)}.new`;
   rmSync(fresh, { recursive: true, force: true });
   mkdirSync(fresh, { recursive: true });
   const table = [];
   for (const { name, bytes } of files.values()) {
-    const packed = compress(bytes);
     writeFileSync(join(fresh, name), bytes);
+    const packed = compress(join(fresh, name));
     writeFileSync(join(fresh, `${name}.gz`), packed);
     table.push({ name, bytes: bytes.length, gzipped: packed.length });
   }
