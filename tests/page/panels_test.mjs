@@ -62,6 +62,34 @@ test('the brush is shown as the viewer says, and asked for', async (t) => {
   assert.equal(await page.locator('#radius').getAttribute('aria-invalid'), 'true');
 });
 
+test('after a click, and after Enter in the radius, the keys are the map\'s', async (t) => {
+  const page = await open(t);
+  const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.name);
+  const onTheMap = () => page.waitForFunction(() => document.activeElement.id === 'canvas');
+  await page.getByRole('radio', { name: 'Square' }).click();
+  await onTheMap();
+  await page.keyboard.press('ArrowLeft');
+  assert.deepEqual(await commands(page), [{ do: 'brush', stencil: 'square' }]);
+  await page.getByRole('button', { name: 'Hide ground' }).click();
+  await onTheMap();
+  assert.match(await page.locator('#layers-unseen').textContent(), /^ground is painted on/);
+  await page.getByRole('button', { name: 'Show ground' }).click();
+  assert.equal(await page.locator('#layers-unseen').textContent(), '');
+  await page.getByRole('button', { name: 'Name and heights of ground' }).click();
+  await page.keyboard.type('moss');
+  assert.equal(await page.locator('#layer-fields-0').getByLabel('Name').inputValue(), 'moss');
+
+  await page.locator('#radius').fill('12');
+  await page.keyboard.press('Enter');
+  await onTheMap();
+  await page.locator('#radius').fill('');
+  await page.keyboard.press('Tab');
+  assert.equal(await page.locator('#radius').inputValue(), '12');
+  await page.getByRole('radio', { name: 'Square' }).focus();
+  await page.keyboard.press('ArrowLeft');
+  assert.equal(await focused(), 'stencil');
+});
+
 test('layers are chosen, hidden, added and changed', async (t) => {
   const page = await open(t);
   await page.getByRole('button', { name: 'Add a layer' }).click();

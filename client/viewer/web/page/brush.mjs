@@ -2,6 +2,8 @@
 // two of them at hand.
 import { byId, setIcon, setText, setValue, showError } from './dom.mjs';
 
+const rounded = (value) => String(Math.round(value * 100) / 100);
+
 export function brushPanel(viewer) {
   const form = byId('brush-body');
   const [slider, radius, error] = [byId('radius-slider'), byId('radius'), byId('brush-error')];
@@ -13,7 +15,11 @@ export function brushPanel(viewer) {
     if (input.value !== '') brush({ radius: Number(input.value) }, input);
   };
 
-  form.addEventListener('submit', (event) => event.preventDefault());
+  // Enter in the field of the radius: back to the map, whose keys are to work again.
+  form.addEventListener('submit', (event) => {
+    event.preventDefault();
+    if (document.activeElement === radius && !error.textContent) byId('canvas').focus();
+  });
   form.addEventListener('change', ({ target }) => {
     if (target.name === 'tool') ask({ do: 'tool', tool: target.value });
     if (target.name === 'fill') brush({ fill: target.value === 'fill' });
@@ -21,7 +27,10 @@ export function brushPanel(viewer) {
     if (target.name === 'snap') brush({ snap: target.value });
   });
   slider.addEventListener('input', () => askRadius(slider));
-  radius.addEventListener('change', () => askRadius(radius));
+  radius.addEventListener('change', () => {
+    if (radius.value === '' && now()) radius.value = rounded(now().radius);
+    else askRadius(radius);
+  });
 
   const now = () => viewer.part('brush');
   quickTool.addEventListener('click', () =>
@@ -34,7 +43,7 @@ export function brushPanel(viewer) {
       if (form.elements[name] instanceof RadioNodeList) form.elements[name].value = value;
     slider.value = part.radius;
     slider.style.setProperty('--part', `${part.radius / 50 * 100}%`);
-    setValue(radius, String(Math.round(part.radius * 100) / 100));
+    setValue(radius, rounded(part.radius));
     setIcon(quickTool, part.tool);
     setText(quickTool.lastElementChild, part.tool === 'paint' ? 'Paint' : 'Move');
     setIcon(quickFill, fill);

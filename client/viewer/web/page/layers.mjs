@@ -7,7 +7,7 @@ import { newLayer } from './new_layer.mjs';
 export function layersPanel(viewer) {
   const list = byId('layer-list');
   const error = byId('layers-error');
-  const add = byId('layer-add');
+  const [add, unseen] = [byId('layer-add'), byId('layers-unseen')];
   const rows = [];
 
   add.addEventListener('click', () => {
@@ -26,6 +26,8 @@ export function layersPanel(viewer) {
     }
     rows.forEach((row, index) =>
       row.show(layers[index], !map.hidden.includes(index), brush?.layer === index));
+    setText(unseen, map.hidden.includes(brush?.layer)
+      ? `${layers[brush.layer]?.name} is painted on, and hidden.` : '');
   }
   viewer.on('map', show);
   viewer.on('brush', show);

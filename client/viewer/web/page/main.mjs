@@ -12,6 +12,7 @@ import { labelsOverlay } from './labels.mjs';
 import { layersPanel } from './layers.mjs';
 import { asksForNoName, hashOf, mapOf, placeOf, queryOf } from './link.mjs';
 import { toast } from './live.mjs';
+import { keysToTheMap } from './map_keys.mjs';
 import { mapsDialog } from './maps.mjs';
 import { noticesPanel } from './notices.mjs';
 import { foldingPanels } from './panels.mjs';
@@ -41,6 +42,7 @@ function showPanels() {
   noticesPanel(viewer);
   peoplePanel(viewer, personDialog(viewer, who));
   statusLine(viewer);
+  keysToTheMap();
   return openMaps;
 }
 
