@@ -397,6 +397,7 @@ TEST(Viewer, FollowsSomebodyUntilItMovesItself) {
   point(server, kAnn, std::nullopt, std::nullopt, {300, 100, 364, 140});
   EXPECT_EQ(place(server), own);
   run(server, Follow{kAnn});
+  EXPECT_TRUE(server.viewer->panels(server.now).people->people[1].followed);
   server.key("Escape");
   EXPECT_FALSE(server.viewer->panels(server.now).people->people[1].followed);
   EXPECT_EQ(refused(server, Follow{kBob}).field, "session");
