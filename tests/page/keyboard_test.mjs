@@ -4,7 +4,7 @@ import { after, before, test } from 'node:test';
 import { createMap, describeMap } from '../interop/maps.mjs';
 import { violations } from './accessibility.mjs';
 import { openBrowser } from './browser.mjs';
-import { caughtUp, eventually, openMap, SETTINGS } from './painting.mjs';
+import { caughtUp, eventually, openMap, seqOf, SETTINGS } from './painting.mjs';
 import { RealServer } from './real_server.mjs';
 
 let browser;
@@ -109,4 +109,24 @@ test('every control has a name, and axe finds nothing', async (t) => {
   assert.ok(controls.length > 25, tree);
   assert.deepEqual(controls.filter((line) => !/"[^"]+"/.test(line)), []);
   assert.deepEqual(await violations(page), []);
+});
+
+test('space is not held any more once the window lost the keyboard', async (t) => {
+  await createMap(server.url, 'space', SETTINGS);
+  const page = await browser.page();
+  t.after(() => page.context().close());
+  await openMap(page, server, 'space');
+  const before = await seqOf(page);
+  const drag = async () => {
+    await page.mouse.move(640, 400);
+    await page.mouse.down();
+    await page.mouse.move(660, 400);
+    await page.mouse.up();
+  };
+  await page.keyboard.down('Space');
+  await drag();
+  // Its release is told to the other window.
+  await page.evaluate(() => window.dispatchEvent(new FocusEvent('blur')));
+  await drag();
+  await eventually(() => seqOf(page), (seq) => seq > before, 'painted after the blur');
 });

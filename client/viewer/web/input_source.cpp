@@ -50,6 +50,12 @@ EM_BOOL on_key_up(int, const EmscriptenKeyboardEvent* event, void* user) {
   return EM_FALSE;
 }
 
+// Its release would be told to another window.
+EM_BOOL on_blur(int, const EmscriptenFocusEvent*, void* user) {
+  listener_of(user).space_held(false);
+  return EM_FALSE;
+}
+
 }  // namespace
 
 void listen_to_input(InputListener& listener) {
@@ -57,6 +63,7 @@ void listen_to_input(InputListener& listener) {
   emscripten_set_wheel_callback(kCanvas, &listener, EM_FALSE, on_wheel);
   emscripten_set_keydown_callback(EMSCRIPTEN_EVENT_TARGET_WINDOW, &listener, EM_FALSE, on_key);
   emscripten_set_keyup_callback(EMSCRIPTEN_EVENT_TARGET_WINDOW, &listener, EM_FALSE, on_key_up);
+  emscripten_set_blur_callback(EMSCRIPTEN_EVENT_TARGET_WINDOW, &listener, EM_FALSE, on_blur);
 }
 
 }  // namespace earthwork::viewer

@@ -13,7 +13,7 @@ class InputListener {
   virtual void wheeled(const WheelEvent& event) = 0;
   /// True when the key meant something, so that the page does nothing with it.
   virtual bool key_pressed(const KeyEvent& event) = 0;
-  /// Space went down, where nothing else has a use for it, or up.
+  /// Space went down, where nothing else has a use for it; or up, or the window lost the keyboard.
   virtual void space_held(bool held) = 0;
 
  protected:
