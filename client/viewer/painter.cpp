@@ -50,8 +50,7 @@ void Painter::take(const std::vector<link::Answer>& answers, Time now) {
     if (at) where = at;
   }
   if (lost == 0) return;
-  const std::string what =
-      lost == 1 ? "1 edit was lost: " : std::to_string(lost) + " edits were lost: ";
+  const std::string what = lost == 1 ? "1 edit: " : std::to_string(lost) + " edits: ";
   notices_.add(Kind::lost, what + why, where, now);
 }
 

@@ -230,7 +230,7 @@ bool Session::say(const protocol::ClientMessage& message) {
 
 void Session::open(std::string map, Time now) {
   shell_.disconnect();
-  hand_back(resume_.give_up({Code::internal, "it was not confirmed before the map was left", {}}));
+  hand_back(resume_.give_up({Code::internal, "not confirmed before the map was left", {}}));
   map_ = std::move(map);
   was_lost_ = false;
   resume_ = link::Resume(patient(resume_.hello(), last_id_), ++seed_, now);

@@ -89,7 +89,8 @@ TEST(Events, TheFirstThatDiffersIsTold) {
   std::vector<Event> events{event(1, 9, 9, 3, true), event(2, 9, 9, 2, false),
                             event(3, 9, 9, 1, true)};
   number(events);
-  std::get<protocol::Edit>(events[1].action).radius = 1;  // another edit than the one that was accepted
+  std::get<protocol::Edit>(events[1].action).radius =
+      1;  // another edit than the one that was accepted
   voxel::Map map = make_map({});
   EXPECT_EQ(verify(map, events), 2u);
   EXPECT_EQ(map.hash(), [&] {

@@ -1,6 +1,18 @@
 #include "tests/link/fake_map.hpp"
 
 namespace earthwork::link {
+namespace {
+
+/// Of an edit, or a change of layers.
+std::optional<protocol::MessageId> edit_id(const std::string& text) {
+  const auto message = protocol::parse_client_message(text);
+  if (!message) return std::nullopt;
+  if (const auto* edit = std::get_if<protocol::EditMessage>(&*message)) return edit->id;
+  if (const auto* layer = std::get_if<protocol::LayerMessage>(&*message)) return layer->id;
+  return std::nullopt;
+}
+
+}  // namespace
 
 void FakeMap::play(Peer& peer) {
   heard.emplace_back();
@@ -48,17 +60,16 @@ bool FakeMap::greet(Peer& peer) {
 }
 
 void FakeMap::take(const std::string& text, Peer* asker) {
-  const auto message = protocol::parse_client_message(text);
-  const auto* edit = message ? std::get_if<protocol::EditMessage>(&*message) : nullptr;
-  if (!edit) return;
-  const bool known = applied.contains(edit->id);
-  const bool late = !known && !applied.empty() && edit->id < applied.rbegin()->first;
-  if (!known && !late) applied.emplace(edit->id, ++seq);
+  const auto id = edit_id(text);
+  if (!id) return;
+  const bool known = applied.contains(*id);
+  const bool late = !known && !applied.empty() && *id < applied.rbegin()->first;
+  if (!known && !late) applied.emplace(*id, ++seq);
   if (!asker) return;
   protocol::ServerMessage reply = protocol::Rejected{
-      .id = edit->id,
+      .id = *id,
       .failure = {.code = protocol::Code::id_out_of_order, .detail = "late", .field = "id"}};
-  if (!late) reply = protocol::Applied{.id = edit->id, .seq = applied.at(edit->id)};
+  if (!late) reply = protocol::Applied{.id = *id, .seq = applied.at(*id)};
   for (int times = answers_twice ? 2 : 1; times > 0; --times) asker->write(protocol::write(reply));
 }
 

@@ -138,6 +138,28 @@ TEST(Membership, JoinsAgainWithItsKeyAndSendsAgainWhatWasNotAnswered) {
   EXPECT_EQ(map.seq, 6u);
 }
 
+TEST(Membership, SendsChangesOfLayersAgainAmongTheEdits) {
+  FakeMap map;
+  map.breaks = {{.after_messages = 0, .how = How::before_the_answer}};
+  meet(
+      map,
+      [](Member& m) {
+        m.edits(1);
+        EXPECT_EQ(m.membership->edit(protocol::LayerChange{}), 2);
+        m.edits(1);
+        m.close_after(3);
+      },
+      [](const Member& m) {
+        ASSERT_EQ(m.answers.size(), 3u);
+        for (const Answer& answer : m.answers) EXPECT_EQ(answer.fate, Fate::applied);
+      });
+  ASSERT_EQ(map.heard.size(), 2u);
+  std::vector<std::string> types;
+  for (const std::string& text : map.heard[1])
+    if (!text.starts_with("closed")) types.push_back(json::parse(text)["type"]);
+  EXPECT_EQ(types, (std::vector<std::string>{"hello", "join", "edit", "layer", "edit"}));
+}
+
 TEST(Membership, SendsWhatWasMadeMeanwhileAfterWhatIsSentAgain) {
   FakeMap map;
   map.breaks = {{.after_messages = 0, .how = How::before_the_answer}};
@@ -279,6 +301,7 @@ TEST(Membership, EndsInGoodOrderWhereverItIsClosed) {
           const auto close = [&m] {
             m.membership->close();
             EXPECT_FALSE(m.membership->edit(circle()));
+            EXPECT_FALSE(m.membership->edit(protocol::LayerChange{}));
             EXPECT_FALSE(m.membership->send(protocol::Ping{}));
             m.log += "closed ";
           };

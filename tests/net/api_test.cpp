@@ -40,7 +40,7 @@ struct ApiTest : testing::Test {
   }
   HttpResponse get(const std::string& target) { return ask(request("GET", target)); }
   HttpResponse create(const std::string& body) { return ask(request("POST", "/api/maps", body)); }
-  void paint(const std::string& map, std::vector<protocol::Edit> edits) {
+  void paint(const std::string& map, std::vector<protocol::Action> actions) {
     struct Blind final : room::Viewer {
       void answered(std::vector<room::Reply>) override {}
       void deliver(room::Parcel) override {}
@@ -50,7 +50,7 @@ struct ApiTest : testing::Test {
     };
     const auto room = room::find_map(atlas, map);
     const auto viewer = room->join(std::make_shared<Blind>(), {}).value().viewer;
-    for (auto& edit : edits) ASSERT_TRUE(room->submit(viewer, {++id, 0, edit}));
+    for (auto& action : actions) ASSERT_TRUE(room->submit(viewer, {++id, 0, action}));
     context.run();
     room->leave(viewer);
   }
@@ -289,10 +289,32 @@ TEST_F(ApiTest, AnExportHasATag) {
   EXPECT_EQ(header(same, "ETag"), tag);
   EXPECT_TRUE(same.body.empty());
 
-  paint("a", {{.radius = 2, .path = {{50, 50}}, .stroke = {}}});
+  paint("a", {protocol::Edit{.radius = 2, .path = {{50, 50}}, .stroke = {}}});
   const auto changed = ask(again);
   EXPECT_EQ(changed.status, 200);
   EXPECT_NE(header(changed, "ETag"), tag);
+}
+
+TEST_F(ApiTest, ShowsTheLayersAsTheyHaveBecome) {
+  ASSERT_EQ(create(R"({"name":"a"})").status, 201);
+  paint("a", {kSquare});
+  const auto before = get("/api/maps/a/export.glb");
+  is_problem(get("/api/maps/a/states.png?layer=1"), 400);
+  const protocol::LayerChange add{.layer = {}, .name = "roof", .color = {}, .wall = {}};
+  const protocol::LayerChange paint_it{.layer = 0, .name = {}, .color = "#123456", .wall = {}};
+  paint("a", {add, paint_it});
+  const json info = json::parse(get("/api/maps/a").body);
+  EXPECT_EQ(info.at("seq"), 3);
+  EXPECT_EQ(info.at("settings").at("layers").at(0).at("color"), "#123456");
+  EXPECT_EQ(info.at("settings").at("layers").at(1).at("name"), "roof");
+
+  // The same meshes in other colours are another file.
+  auto again = request("GET", "/api/maps/a/export.glb");
+  again.if_none_match = header(before, "ETag");
+  const auto after = ask(again);
+  EXPECT_EQ(after.status, 200);
+  EXPECT_NE(header(after, "ETag"), header(before, "ETag"));
+  EXPECT_NE(after.body, before.body);
 }
 
 TEST_F(ApiTest, BusyWorkersAreSaidSoBeforeAPictureIsDrawn) {

@@ -93,6 +93,7 @@ TEST_F(ConversationTest, JoinIsRefusedWhereItCannotBe) {
 TEST_F(ConversationTest, OutsideAMapThereIsNothingToSeeOrDo) {
   talk.one<protocol::Welcome>(kHello);
   talk.refused(kEdit, Code::bad_state, 4);
+  talk.refused(R"({"type":"layer","id":4})", Code::bad_state, 4);
   talk.refused(R"({"type":"view","n":1,"all":true,"id":5})", Code::bad_state, 5);
   talk.refused(R"({"type":"leave","id":6})", Code::bad_state, 6);
   talk.refused(R"({"type":"cursor","x":1,"y":2})", Code::bad_state, {});
@@ -108,6 +109,62 @@ TEST_F(ConversationTest, EditsAreAppliedOrRejected) {
   EXPECT_EQ(rejected.id, 5);
   EXPECT_EQ(rejected.failure.field, "radius");
   EXPECT_EQ(room::find_map(atlas, "m")->info().seq, 1u);
+}
+
+TEST_F(ConversationTest, AChangeOfLayersIsAppliedOrRejectedAndToldToAll) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  Speaker other(atlas, context);
+  other.one<protocol::Welcome>(kHello);
+  other.one<protocol::Joined>(kJoin);
+  talk.hear();
+  const auto heard = talk.say(R"({"type":"layer","id":5,"name":"roof"})");
+  ASSERT_EQ(heard.size(), 2u);
+  const auto& changed = std::get<protocol::SettingsChanged>(heard[1]);
+  EXPECT_EQ(changed.seq, 1u);
+  ASSERT_EQ(changed.settings.layers.size(), 2u);
+  EXPECT_EQ(changed.settings.layers[1].name, "roof");
+  EXPECT_EQ(std::get<protocol::Applied>(heard[0]), (protocol::Applied{5, 1}));
+  const auto told = other.hear();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(std::get<protocol::SettingsChanged>(told[0]), changed);
+  talk.refused(R"({"type":"layer","id":6,"layer":2,"name":"x"})", Code::out_of_range, 6);
+  talk.refused(R"({"type":"layer","id":6,"layer":1})", Code::bad_field, 6);
+  talk.refused(R"({"type":"layer","name":"x"})", Code::bad_field, {});
+}
+
+TEST_F(ConversationTest, WhoDoesNotReadIsToldTheLastSettingsOnly) {
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  Speaker other(atlas, context);
+  other.one<protocol::Welcome>(kHello);
+  other.one<protocol::Joined>(kJoin);
+  for (int i = 0; i < 10; ++i)
+    talk.say(R"({"type":"layer","name":"roof","id":)" + std::to_string(i + 5) + "}");
+  std::size_t told = 0;
+  for (const auto& message : other.hear())
+    if (const auto* changed = std::get_if<protocol::SettingsChanged>(&message)) {
+      ++told;
+      EXPECT_EQ(changed->seq, 10u);
+      EXPECT_EQ(changed->settings.layers.size(), 11u);
+    }
+  EXPECT_EQ(told, 1u);
+}
+
+TEST_F(ConversationTest, SettingsOfAMapThatWasLeftAreNotToldAfterwards) {
+  ASSERT_TRUE(room::create_map(atlas, "n", {}));
+  talk.one<protocol::Welcome>(kHello);
+  talk.one<protocol::Joined>(kJoin);
+  talk.conversation->receive(R"({"type":"layer","id":5,"name":"roof"})");
+  talk.conversation->receive(R"({"type":"leave","id":6})");
+  context.run();  // nothing is taken meanwhile
+  talk.conversation->receive(R"({"type":"join","map":"n","id":7})");
+  bool joined = false;
+  for (const auto& message : talk.hear()) {
+    joined = joined || std::holds_alternative<protocol::Joined>(message);
+    EXPECT_FALSE(std::holds_alternative<protocol::SettingsChanged>(message));
+  }
+  EXPECT_TRUE(joined);
 }
 
 TEST_F(ConversationTest, AnEditKeepsItsAuthorsKeyOutOfTheLog) {

@@ -125,6 +125,32 @@ TEST(Outbox, TalkGoesBehindControlAndBeforeMeshes) {
   EXPECT_EQ(next[2].kind, Kind::binary);
 }
 
+TEST(Outbox, OfSettingsTheLastGoBeforeTalkAndMeshes) {
+  Outbox outbox;
+  outbox.put(room::Parcel{.group = protocol::GroupBegin{5, 9, 2}, .group_records = {record(1)}});
+  outbox.put(room::Talk{{shared("talk")}});
+  outbox.put_settings(shared("older"));
+  outbox.put_settings(shared("newer"));
+  outbox.say(protocol::Applied{1, 9});
+  const auto next = take(outbox, 10'000);
+  ASSERT_EQ(next.size(), 6u);
+  EXPECT_EQ(next[0].bytes, protocol::write(protocol::Applied{1, 9}));
+  EXPECT_EQ(next[1].bytes, "newer");
+  EXPECT_EQ(next[2].bytes, "talk");
+  EXPECT_EQ(next[3].kind, Kind::binary);
+}
+
+TEST(Outbox, SettingsMayBeForgottenAndAreNotSaidAfterBye) {
+  Outbox outbox;
+  outbox.put_settings(shared("of a map that was left"));
+  outbox.forget_settings();
+  EXPECT_TRUE(take(outbox).empty());
+  outbox.put_settings(shared("of one that ends"));
+  outbox.end({.failure = {}, .retry_after_ms = {}});
+  outbox.put_settings(shared("too late"));
+  EXPECT_EQ(take(outbox, 10'000).size(), 1u);
+}
+
 TEST(Outbox, TalkIsThroughOnceItIsWritten) {
   Outbox outbox;
   EXPECT_FALSE(outbox.has_talk());

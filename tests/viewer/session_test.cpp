@@ -221,7 +221,7 @@ TEST(Session, AnotherMapOfTheNameTellsWhatWasLost) {
   const auto notices = server.viewer->panels(server.now).notices->notices;
   ASSERT_EQ(notices.size(), 1u);
   EXPECT_EQ(notices[0].kind, NoticesPart::Notice::Kind::lost);
-  EXPECT_EQ(notices[0].words.find("2 edits were lost"), 0u) << notices[0].words;
+  EXPECT_EQ(notices[0].words.find("2 edits: "), 0u) << notices[0].words;
   EXPECT_TRUE(notices[0].at);
 }
 
