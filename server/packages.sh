@@ -17,6 +17,7 @@ page_packages=(emscripten zopfli)
 test_packages=(
   clang-tidy-19 libclang-rt-19-dev llvm-19 clang-format-14
   libgtest-dev librapidcheck-dev libbenchmark-dev libepoxy-dev libegl-dev libegl1 libgl1-mesa-dri
+  chromium fonts-dejavu-core libgles2
 )
 
 is_installed() {

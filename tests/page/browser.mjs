@@ -15,6 +15,7 @@ export async function openBrowser() {
   const browser = await chromium.launch({
     executablePath: process.env.EARTHWORK_CHROMIUM ?? '/usr/bin/chromium',
     args: [...ARGUMENTS, `--disk-cache-dir=${folder}`],
+    env: { ...process.env, FONTCONFIG_FILE: path.join(import.meta.dirname, 'fonts.conf') },
   });
   return {
     // A page in a context of its own, which remembers nothing of others. `options` are those of
